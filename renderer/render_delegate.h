@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The renderer as a render delegate has it: create, sync what changed, render a
+// product, resolve the image. A Hydra delegate would be a thin wrapper.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "frame.h"
+#include "scene/flat_scene.h"
+#include "settings.h"
+
+namespace nightcity {
+
+struct DeviceOptions {
+    std::string device;       // part of a name, or an index of listDevices; empty: the best
+    bool validation = false;  // core and synchronization validation; a message is an error
+};
+
+// One line a device: index, name, driver, and what it lacks for rendering, if anything.
+std::vector<std::string> listDevices();
+
+// What of the scene is new since the last sync.
+struct SceneChanges {
+    bool geometry = true;    // triangles, facades, materials, media boxes
+    bool windowState = true; // which windows are on (frame), cap, storage
+};
+
+using ProgressCallback = std::function<void(double done)>;  // 0 to 1
+
+class RenderDelegate {
+public:
+    // Throws DeviceError where no device will do, naming what is missing.
+    static std::unique_ptr<RenderDelegate> create(const DeviceOptions& options);
+    virtual ~RenderDelegate() = default;
+
+    // The scene must outlive the delegate or the next sync. `settings` gives cap and storage.
+    virtual void sync(const FlatScene& scene, int frame, const RenderSettings& settings,
+                      const SceneChanges& changes) = 0;
+    virtual void render(const RenderProduct& product, const RenderSettings& settings,
+                        const ProgressCallback& progress) = 0;
+    virtual Frame resolve() = 0;                       // of the last render
+    virtual RenderStatistics statistics() const = 0;
+    // Sentences for the user: what was chosen differently from what was asked, and why.
+    virtual std::vector<std::string> notes() const = 0;
+};
+
+}  // namespace nightcity

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What to render and how: filled from the command line, checked before any
+// work, then passed on as const.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace nightcity {
+
+// Which physics (the model). Enumerators are added as the renderer learns them.
+enum class Lights { listed };
+enum class Visibility { none };
+enum class Emitter { isotropic };
+enum class Scattering { single };
+enum class Surfaces { dim };
+
+// How its integral is computed.
+enum class Method {
+    march,      // N equal steps a segment, midpoints, on the GPU
+    reference,  // the same march in double precision, on the CPU
+};
+enum class MarchOrder { steps, lights };        // which loop is outside
+enum class LightStorage { uniform, storage };   // where the light lists live
+enum class Filter { box, gauss };
+
+struct Model {
+    Lights lights = Lights::listed;
+    Visibility visibility = Visibility::none;
+    Emitter emitter = Emitter::isotropic;
+    Scattering scattering = Scattering::single;
+    Surfaces surfaces = Surfaces::dim;
+};
+
+struct RenderSettings {
+    Model model;
+    Method method = Method::march;
+    MarchOrder marchOrder = MarchOrder::lights;
+    LightStorage lightStorage = LightStorage::uniform;
+    std::uint32_t subdivisions = 25;         // steps a segment, at least 1
+    std::optional<std::uint32_t> lightCap;   // at most this many lit windows a box, the nearest ids first
+    bool media = true;                       // off: the surface frame
+    std::uint32_t pixelSamples = 1;
+    Filter filter = Filter::box;             // with 1 sample: the pixel centre
+    std::uint64_t seed = 0;
+};
+
+// One image: where from, how large, which pixels.
+struct RenderProduct {
+    std::string camera;
+    int frame = 1;
+    glm::vec3 cameraOffset{0};  // m, added to the camera's position (repeats move it)
+    std::uint32_t width = 1920;
+    std::uint32_t height = 1061;
+    std::vector<glm::uvec2> pixels;  // only these, in this order; empty: all
+};
+
+}  // namespace nightcity
