@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""``nightcity bench``: time, memory and size of every step, and the rates of the march.
+
+Each step is a process of its own, measured by the operating system's accounting. Times on a
+shared machine mean little; the ratios, from one interleaved run, are what to quote.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from nightcity.chart.runs import Setting, Timing, time_frames
+from nightcity.errors import NightcityError
+from nightcity.render import run_renderer
+
+_VIEW = ["--camera", "overview75", "--size", "1920x1061"]
+_REPEATS = 5
+_ROUNDS = 3
+_SURFACE = Setting("surface frame", ("--media", "off"))
+_MARCHES = tuple(
+    Setting(
+        f"march-25, {order} outside, {storage}",
+        ("--model", "paper", "--method", "march", "--subdivisions", "25")
+        + ("--march-order", order, "--light-storage", storage),
+    )
+    for order in ("steps", "lights")
+    for storage in ("uniform", "storage")
+)
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What one process took: wall seconds and peak resident memory in bytes."""
+
+    seconds: float
+    memory: int
+
+    def __str__(self) -> str:
+        return f"{self.seconds:.1f} s, {self.memory / 1e9:.2f} GB"
+
+
+def bench(presets: Sequence[str], towns: Sequence[Path]) -> None:
+    """Print both tables for the generator presets and the CityJSON files named."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        sources = [(preset, ["generate", "--preset", preset]) for preset in presets]
+        sources += [(town.name.split(".")[0], ["import", str(town)]) for town in towns]
+        print("Every step, once (time and peak memory of its process)\n")
+        print(
+            "| scene | buildings | windows | media boxes | make the stage | stage | export "
+            "| flat scene | load | bake | first frame | steady frame |"
+        )
+        print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+        scenes = []
+        for label, command in sources:
+            scenes.append((label, _measure_steps(label, command, folder)))
+        for label, scene in scenes:
+            _print_march_table(label, scene, folder)
+
+
+def _measure_steps(label: str, command: list[str], folder: Path) -> Path:
+    stage, scene = folder / f"{label}.usda", folder / f"{label}.scene"
+    made = _run([*command, "-o", str(stage)])
+    exported = _run(["export", str(stage), "-o", str(scene)])
+    statistics_file = folder / "statistics.json"
+    run_renderer(
+        [scene, *_VIEW, "--model", "paper", "--method", "march", "--repeat", str(_REPEATS)]
+        + ["--quiet", "-o", folder / "frame.exr", "--stats", statistics_file]
+    )
+    measured = json.loads(statistics_file.read_text())
+    counts, timing = measured["counts"], measured["timing"]
+    windows = max(counts["windows"], 1)
+    stage_bytes = sum(path.stat().st_size for path in folder.glob(f"{label}.*") if path.is_file())
+    scene_bytes = sum(path.stat().st_size for path in scene.iterdir())
+    print(
+        f"| {label} | {counts['buildings']} | {counts['windows']} | {counts['media_boxes']} "
+        f"| {made} | {_size(stage_bytes, windows)} | {exported} | {_size(scene_bytes, windows)} "
+        f"| {timing['load_ms']:.0f} ms | {timing['bake_ms']:.0f} ms "
+        f"| {timing['first_frame_ms']:.0f} ms | {timing['steady_frame_ms']:.0f} ms |",
+        flush=True,
+    )
+    return scene
+
+
+def _size(count: int, windows: int) -> str:
+    return f"{count / 1e6:.1f} MB ({count / windows:.0f} B a window)"
+
+
+def _run(command: list[str]) -> Cost:
+    start = time.monotonic()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "nightcity", *command], stdout=subprocess.DEVNULL
+    )
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        raise NightcityError(f"nightcity {' '.join(command)} ended with {process.returncode}")
+    return Cost(time.monotonic() - start, usage.ru_maxrss * 1024)
+
+
+def _print_march_table(label: str, scene: Path, folder: Path) -> None:
+    timings: dict[Setting, list[Timing]] = {setting: [] for setting in (_SURFACE, *_MARCHES)}
+    for _ in range(_ROUNDS):
+        for setting, measured in timings.items():
+            measured.append(time_frames(scene, _VIEW, setting, _REPEATS, folder))
+    surface = statistics.median(t.steady_frame_ms for t in timings[_SURFACE])
+    cores = len(os.sched_getaffinity(0))
+    print(
+        f"\n{label}: one interleaved run, {_ROUNDS} x {_REPEATS} frames, camera moving, "
+        f"{timings[_SURFACE][0].device}, {cores} cores\n"
+    )
+    print(
+        "| setting | steady frame, ms | spread, ms | to the surface frame | first frame, ms "
+        "| surface pass | traverse pass | march pass, ms | G light evaluations/s a core |"
+    )
+    print("|---|---|---|---|---|---|---|---|---|")
+    for setting, measured in timings.items():
+        steady = [t.steady_frame_ms for t in measured]
+        passes = {
+            name: statistics.median(t.passes.get(name, 0.0) for t in measured)
+            for name in ("surface", "traverse", "march")
+        }
+        rate = (
+            f"{measured[0].light_evaluations / passes['march'] / 1e6 / cores:.2f}"
+            if passes["march"]
+            else ""
+        )
+        print(
+            f"| {setting.name} | {statistics.median(steady):.1f} | {max(steady) - min(steady):.1f} "
+            f"| {statistics.median(steady) / surface:.2f} | {measured[0].first_frame_ms:.1f} "
+            f"| {passes['surface']:.1f} | {passes['traverse']:.1f} | {passes['march']:.1f} "
+            f"| {rate} |",
+            flush=True,
+        )

@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""One setting of the renderer: how long its frame takes, and what it says of given pixels."""
+
+from __future__ import annotations
+
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nightcity.errors import SceneError
+from nightcity.render import run_renderer
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A point of the chart: its name and the renderer options that make it."""
+
+    name: str
+    options: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Timing:
+    """What one call of the renderer measured, in milliseconds and bytes."""
+
+    device: str
+    first_frame_ms: float
+    steady_frame_ms: float
+    bake_ms: float
+    memory_bytes: int
+    light_evaluations: int
+    passes: dict[str, float]
+
+
+def time_frames(
+    scene: Path, view: list[str], setting: Setting, repeats: int, folder: Path
+) -> Timing:
+    """Render ``repeats`` frames, the camera moving on, and read the renderer's statistics."""
+    statistics_file = folder / "statistics.json"
+    run_renderer(
+        [scene, *view, *setting.options, "--repeat", str(repeats), "--quiet"]
+        + ["-o", folder / "timed.exr", "--stats", statistics_file]
+    )
+    statistics = json.loads(statistics_file.read_text())
+    timing = statistics["timing"]
+    return Timing(
+        device=statistics["device"],
+        first_frame_ms=timing["first_frame_ms"],
+        steady_frame_ms=timing["steady_frame_ms"],
+        bake_ms=timing["bake_ms"],
+        memory_bytes=statistics["memory"]["device_bytes"],
+        light_evaluations=statistics["counts"]["light_evaluations"],
+        passes=timing["passes"],
+    )
+
+
+def render_pixels(
+    scene: Path, view: list[str], setting: Setting, pixels: str, folder: Path
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Pixels (N, 2) and their glow (N, 3). ``pixels``: a count to choose, or a file of ``x,y``."""
+    table = folder / "pixels.csv"
+    run_renderer([scene, *view, *setting.options, "--pixels", pixels, "--quiet", "-o", table])
+    with table.open(newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    if not rows:
+        raise SceneError(f"{scene}: no pixel of this view sees a medium; choose another camera")
+    where = np.array([[int(row["x"]), int(row["y"])] for row in rows])
+    glow = np.array([[float(row[f"glow.{c}"]) for c in "RGB"] for row in rows])
+    return where, glow
+
+
+def write_pixels(pixels: NDArray[np.int64], path: Path) -> Path:
+    """Write a file of ``x,y`` lines that nightcity-render reads."""
+    path.write_text("x,y\n" + "".join(f"{x},{y}\n" for x, y in pixels))
+    return path

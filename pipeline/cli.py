@@ -1,0 +1,237 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""The command line: parses and calls, nothing else. Exit codes as errors.py has them."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+from pathlib import Path
+
+from nightcity import __version__
+from nightcity.errors import NightcityError
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command; returns its exit code."""
+    parser = _parser()
+    options, rest = parser.parse_known_args(arguments)
+    if rest and not options.passes_options_on:
+        parser.error(f"unknown arguments: {' '.join(rest)}")
+    options.renderer_options = rest
+    signal.signal(signal.SIGTERM, _stop)
+    try:
+        return options.run(options) or 0
+    except NightcityError as error:
+        print(f"nightcity {options.command}: {error}", file=sys.stderr)
+        return error.exit_code
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 1
+    except OSError as error:
+        place = f" ({error.filename})" if error.filename else ""
+        reason = error.strerror or error
+        print(f"nightcity {options.command}: {reason}{place}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+
+
+def _stop(signal_number: int, frame: object) -> None:
+    raise SystemExit(128 + signal_number)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="nightcity", description="Renders the glow of a city at night."
+    )
+    parser.add_argument("--version", action="version", version=f"nightcity {__version__}")
+    parser.set_defaults(passes_options_on=False)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for add in (_demo, _generate, _import, _validate, _export, _render, _chart, _bench):
+        add(commands)
+    return parser
+
+
+def _demo(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser(
+        "demo", help="a paper city and a real town, from parameters to pictures and a chart"
+    )
+    command.add_argument(
+        "-o", "--output", type=Path, default=Path("out/demo"), help="folder (default %(default)s)"
+    )
+    command.add_argument(
+        "--town", type=Path, help="CityJSON file (default: the excerpt of Delft in tests/data)"
+    )
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.demo import demo
+
+        demo(options.output, options.town)
+
+    command.set_defaults(run=run)
+
+
+def _generate(commands: argparse._SubParsersAction) -> None:
+    from nightcity.city.parameters import add_arguments, parameters_from_arguments
+
+    command = commands.add_parser("generate", help="a city from parameters, as a USD stage")
+    command.add_argument("-o", "--output", type=Path, required=True, help="the stage, .usda")
+    add_arguments(command)
+
+    def run(options: argparse.Namespace) -> None:
+        parameters = parameters_from_arguments(options)
+        from nightcity.city.generate import generate
+        from nightcity.stage.write import write_stage
+
+        _list_files(write_stage(generate(parameters), options.output))
+
+    command.set_defaults(run=run)
+
+
+def _import(commands: argparse._SubParsersAction) -> None:
+    from nightcity.city.town_options import add_arguments, options_from_arguments
+
+    command = commands.add_parser("import", help="a real town from CityJSON, as a USD stage")
+    command.add_argument("town", type=Path, help="CityJSON file, version 1.0 to 2.0")
+    command.add_argument("-o", "--output", type=Path, required=True, help="the stage, .usda")
+    add_arguments(command)
+
+    def run(options: argparse.Namespace) -> None:
+        town_options = options_from_arguments(options)
+        from nightcity.city.import_town import import_town
+        from nightcity.stage.write import write_stage
+
+        city = import_town(options.town, town_options)
+        for note in city.notes:
+            print(f"note: {note}", file=sys.stderr)
+        _list_files(write_stage(city, options.output))
+
+    command.set_defaults(run=run)
+
+
+def _validate(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("validate", help="check any stage against the schemas")
+    command.add_argument("stage", type=Path)
+
+    def run(options: argparse.Namespace) -> int:
+        from nightcity.stage.validate import validate_stage
+
+        findings = validate_stage(options.stage)
+        for finding in findings:
+            print(finding)
+        errors = sum(finding.severity == "error" for finding in findings)
+        print(f"{options.stage}: {errors} errors, {len(findings) - errors} warnings")
+        return 3 if errors else 0
+
+    command.set_defaults(run=run)
+
+
+def _export(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("export", help="a stage as a flat scene for the renderer")
+    command.add_argument("stage", type=Path)
+    command.add_argument("-o", "--output", type=Path, required=True, help="the scene's folder")
+    _add_export_arguments(command)
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.export.export_stage import export_stage
+
+        report = export_stage(
+            options.stage, options.output, frames=options.frames, lists=options.lists
+        )
+        for note in report.notes:
+            print(f"note: {note}", file=sys.stderr)
+        print(report)
+
+    command.set_defaults(run=run)
+
+
+def _add_export_arguments(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--lists",
+        choices=("recomputed", "authored"),
+        default="recomputed",
+        help="light lists: made anew where they no longer fit the geometry, or as authored",
+    )
+    command.add_argument(
+        "--frames",
+        type=_frame_range,
+        metavar="FIRST-LAST",
+        help="frames (default: the stage's time codes)",
+    )
+
+
+def _frame_range(text: str) -> tuple[int, int]:
+    first, _, last = text.partition("-")
+    try:
+        frames = int(first), int(last or first)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is no frame range such as 1-10") from None
+    if frames[1] < frames[0]:
+        raise argparse.ArgumentTypeError(f"'{text}' ends before it begins")
+    return frames
+
+
+def _render(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser(
+        "render",
+        help="render a stage or a flat scene",
+        description="Exports the stage to a flat scene, then renders it. Every option not named "
+        "here goes to nightcity-render; see `nightcity-render --help`.",
+    )
+    command.add_argument("stage", type=Path, help="a USD stage, or the folder of a flat scene")
+    command.add_argument(
+        "--scene", type=Path, help="keep the flat scene in this folder (default: not kept)"
+    )
+    command.add_argument("--lists", choices=("recomputed", "authored"), default="recomputed")
+
+    def run(options: argparse.Namespace) -> int:
+        from nightcity.render import render
+
+        return render(options.stage, options.renderer_options, options.scene, options.lists)
+
+    command.set_defaults(run=run, passes_options_on=True)
+
+
+def _chart(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("chart", help="speed against accuracy, for one scene")
+    command.add_argument("stage", type=Path, help="a USD stage, or the folder of a flat scene")
+    command.add_argument("-o", "--output", type=Path, required=True, help="the chart's folder")
+    command.add_argument("--camera", help="(default: the stage's)")
+    command.add_argument("--quick", action="store_true", help="a smaller image, fewer pixels")
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.chart.speed_accuracy import chart
+
+        _list_files(chart(options.stage, options.output, options.camera, options.quick))
+
+    command.set_defaults(run=run)
+
+
+def _bench(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("bench", help="tables of time, memory and size")
+    command.add_argument(
+        "--town", type=Path, action="append", default=[], help="a CityJSON file to measure as well"
+    )
+    command.add_argument(
+        "--preset",
+        action="append",
+        help="a generator preset (default: paper-4x4 and city-100x100)",
+    )
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.bench import bench
+
+        bench(options.preset or ["paper-4x4", "city-100x100"], options.town)
+
+    command.set_defaults(run=run)
+
+
+def _list_files(paths: list[Path]) -> None:
+    for path in paths:
+        print(path)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
