@@ -9,11 +9,33 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from nightcity.errors import SceneError
+
 PATH = Path(__file__).resolve().parent
+NAMES = (
+    "NightcityCityAPI",
+    "NightcityBuildingAPI",
+    "NightcityGroundAPI",
+    "NightcityWindowsAPI",
+    "NightcityMediaAPI",
+)
 
 
 def register() -> None:
-    """Make the schemas known to USD; call it before any stage opens or schema is looked up."""
-    from pxr import Plug
+    """Make the schemas known to USD; call it before any stage opens or schema is looked up.
 
-    Plug.Registry().RegisterPlugins(str(PATH))
+    Does nothing where ``PXR_PLUGINPATH_NAME`` has brought them already. Raises SceneError where
+    USD has read its schemas before, because it never reads them again.
+    """
+    from pxr import Plug, Usd
+
+    plugins = Plug.Registry()
+    if plugins.GetPluginWithName("nightcity") is None:
+        plugins.RegisterPlugins(str(PATH))
+    known = Usd.SchemaRegistry()
+    missing = [name for name in NAMES if known.FindAppliedAPIPrimDefinition(name) is None]
+    if missing:
+        raise SceneError(
+            f"USD does not know the schemas {', '.join(missing)}: call nightcity.schemas.register()"
+            f" before any stage is opened, or set PXR_PLUGINPATH_NAME to {PATH} before Python starts"
+        )
