@@ -29,7 +29,7 @@ struct Frame {
     std::vector<float> depth;           // m along the camera's axis, kSkyDepth where there is nothing
     std::vector<glm::vec3> normal;      // world, towards the camera; 0 for sky
     std::vector<float> mediaId;         // first media box on the ray, -1 for none
-    std::vector<float> materialId;      // index of the material, -1 for sky
+    std::vector<float> materialId;      // index of the material, -1 for sky and panes
 
     void resize(std::uint32_t w, std::uint32_t h);
 };
