@@ -37,5 +37,5 @@ def register() -> None:
     if missing:
         raise SceneError(
             f"USD does not know the schemas {', '.join(missing)}: call nightcity.schemas.register()"
-            f" before any stage is opened, or set PXR_PLUGINPATH_NAME to {PATH} before Python starts"
+            f" before any stage is opened, or set PXR_PLUGINPATH_NAME={PATH} before Python starts"
         )
