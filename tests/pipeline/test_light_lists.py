@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+
 from nightcity import light_lists as module
 from nightcity.light_lists import TOUCH_TOLERANCE, light_lists, window_bounds
 
