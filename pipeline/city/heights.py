@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""Heights of buildings from Perlin noise: similar nearby, and spread as the parameters ask."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nightcity.city import perlin
+from nightcity.city.model import FloatArray, IntArray
+from nightcity.city.parameters import CityParameters
+from nightcity.city.seeds import Purpose, generator, sequence
+from nightcity.city.street_grid import snap
+
+
+@dataclass(frozen=True)
+class BuildingShapes:
+    """heights: (rows, columns) m. window_rows: (rows, columns), rows of windows on a facade."""
+
+    heights: FloatArray
+    window_rows: IntArray
+
+
+def building_shapes(parameters: CityParameters) -> BuildingShapes:
+    """How tall every building is."""
+    rank = noise_rank(parameters)
+    if parameters.heights == "templates":
+        big = rank >= 1.0 - parameters.big_share
+        heights = np.where(big, parameters.big_height, parameters.small_height)
+        return BuildingShapes(snap(heights), np.where(big, parameters.big_rows,
+                                                      parameters.small_rows))  # fmt: skip
+    low, high = parameters.min_height, parameters.max_height
+    wanted = low + (high - low) * rank**parameters.height_exponent
+    lowest = int(np.ceil(low / parameters.floor_height - 1e-9))
+    floors = np.maximum(np.floor(wanted / parameters.floor_height + 1e-9).astype(int), lowest)
+    # The ground line has no window; the paper's small building is one of six 5 m floors.
+    return BuildingShapes(snap(floors * parameters.floor_height), floors - 1)
+
+
+def noise_rank(parameters: CityParameters) -> FloatArray:
+    """(rows, columns): share of the buildings whose noise is lower, (rank + 0.5) / count.
+
+    Ranks rather than raw noise, so that shares and ranges come out as asked for at any seed.
+    """
+    columns, rows = parameters.grid
+    table = perlin.permutation(sequence(parameters.seed, Purpose.HEIGHTS))
+    start = generator(parameters.seed, Purpose.NOISE_START).uniform(0, perlin.PERIOD, 2)
+    x = start[0] + parameters.noise_frequency * np.arange(columns)
+    y = start[1] + parameters.noise_frequency * np.arange(rows)[:, None]
+    values = perlin.noise(x, y, table).ravel()
+    rank = np.empty(values.size)
+    rank[np.argsort(values, kind="stable")] = (np.arange(values.size) + 0.5) / values.size
+    return rank.reshape(rows, columns)
