@@ -24,6 +24,7 @@ _ELEMENTS: dict[str, type] = {
     "Vec2fArray": np.float32,
     "Vec3fArray": np.float32,
     "QuatfArray": np.float32,  # x, y, z, real
+    "QuathArray": np.float16,
 }
 
 

@@ -64,6 +64,7 @@ def _write_group(group: PrimWriter, buildings: Sequence[Building], panes: Panes)
         prim.relate("prototypes", paths)
         prim.set("positions", windows.centres[part])
         prim.set("orientationsf", turns[part])
+        prim.set("orientations", turns[part])  # half precision, for tools that know no other
         if scaled[part].any():
             prim.set("scales", scales[part])
         prim.set("ids", windows.ids[part])
