@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the two files of a flat scene, both or neither."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import xxhash
+from numpy.typing import NDArray
+
+from nightcity import __version__
+from nightcity.errors import SceneError
+from nightcity.export.records import ALIGNMENT, FORMAT, RECORDS, VERSION, fields
+
+_JSON, _BINARY = "scene.json", "scene.bin"
+
+
+def write_scene(
+    folder: Path, arrays: Mapping[str, NDArray], manifest: Mapping[str, object]
+) -> dict[str, int]:
+    """Write ``folder/scene.json`` and ``folder/scene.bin``; returns their sizes in bytes.
+
+    arrays: every array of RECORDS, of its type. manifest: what docs/scene_format.md lists beside
+    the arrays and the constants. An earlier scene in the folder is replaced only once the new one
+    is complete; a failure leaves the earlier one. Raises SceneError where writing fails.
+    """
+    temporary = {name: folder / f".{name}.{os.getpid()}.part" for name in (_JSON, _BINARY)}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        table, binary = _write_binary(temporary[_BINARY], arrays)
+        content = dict(manifest) | {
+            "format": FORMAT,
+            "version": VERSION,
+            "byte_order": "little",
+            "generator": f"nightcity {__version__}",
+            "units": {
+                "length": "m",
+                "power": "W",
+                "extinction": "1/m",
+                "radiance": "W m^-2 sr^-1",
+            },
+            "up_axis": "z",
+            "binary": binary,
+            "arrays": table,
+        }
+        text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False, allow_nan=False)
+        _write_whole(temporary[_JSON], [text.encode() + b"\n"])
+        # Without its manifest the folder holds no scene: an interrupted exchange is no mixture.
+        (folder / _JSON).unlink(missing_ok=True)
+        for name in (_BINARY, _JSON):
+            os.replace(temporary[name], folder / name)
+    except OSError as error:
+        raise SceneError(f"{folder}: the flat scene cannot be written: {error.strerror}") from error
+    finally:
+        for path in temporary.values():
+            if path.parent.is_dir():
+                path.unlink(missing_ok=True)
+    return {name: (folder / name).stat().st_size for name in (_JSON, _BINARY)}
+
+
+def _write_binary(path: Path, arrays: Mapping[str, NDArray]) -> tuple[dict, dict]:
+    """The manifest's ``arrays`` and ``binary``."""
+    digest = xxhash.xxh3_128()
+    table, chunks, offset = {}, [], 0
+    for name, record in RECORDS.items():
+        array = arrays[name]
+        if array.dtype != record:
+            raise TypeError(f"array {name} is {array.dtype}, not {record}")
+        gap = -offset % ALIGNMENT
+        chunks += [bytes(gap), array.view("u1").data if len(array) else b""]
+        offset += gap
+        table[name] = {
+            "offset": offset,
+            "count": len(array),
+            "stride": record.itemsize,
+            "fields": fields(name),
+        }
+        offset += array.nbytes
+    for chunk in chunks:
+        digest.update(chunk)
+    _write_whole(path, chunks)
+    return table, {"file": _BINARY, "bytes": offset, "hash": digest.hexdigest()}
+
+
+def _write_whole(path: Path, chunks: list) -> None:
+    with path.open("wb") as file:
+        for chunk in chunks:
+            file.write(chunk)
+        file.flush()
+        os.fsync(file.fileno())
