@@ -214,7 +214,7 @@ def _from_text(text: str, check: Check) -> object:
         return text
     try:
         return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # TOMLDecodeError, or a number too long
         return text
 
 

@@ -17,6 +17,7 @@ from nightcity.city.heights import BuildingShapes
 from nightcity.city.model import BoolArray, FloatArray, Windows
 from nightcity.city.parameters import CityParameters
 from nightcity.city.seeds import Purpose, generator
+from nightcity.city.window_colours import draw_colours
 from nightcity.errors import UsageError
 
 # Along the face, left to right as seen from outside; with z it spans the face, outward.
@@ -56,7 +57,8 @@ def city_windows(parameters: CityParameters, shapes: BuildingShapes) -> list[Win
     panel = np.concatenate([layout.panel for layout in layouts])
     light_on = generator(parameters.seed, Purpose.LIT).random(total) < parameters.lit
     light_on |= panel
-    colours = _draw_colours(parameters, total)
+    rng = generator(parameters.seed, Purpose.COLOURS)
+    colours = draw_colours(parameters.window_colours, total, rng)
     colours[panel] = parameters.window_colours[0][:3]
     ids = np.arange(total)
     for array in (light_on, colours, ids):
@@ -143,11 +145,3 @@ def _with_billboard(parameters: CityParameters, layout: PaneLayout, height: floa
         np.append(layout.power[~covered], parameters.billboard_power),
         np.append(layout.panel[~covered], True),
     )
-
-
-def _draw_colours(parameters: CityParameters, count: int) -> FloatArray:
-    """(count, 3), drawn by weight."""
-    table = np.array(parameters.window_colours)
-    share = np.cumsum(table[:, 3]) / table[:, 3].sum()
-    draw = generator(parameters.seed, Purpose.COLOURS).random(count)
-    return table[np.minimum(np.searchsorted(share, draw, "right"), len(table) - 1), :3]

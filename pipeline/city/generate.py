@@ -16,7 +16,7 @@ from nightcity.city.heights import BuildingShapes, building_shapes
 from nightcity.city.model import Building, City, LightLists, MediaBox, Mesh
 from nightcity.city.parameters import CityParameters
 from nightcity.city.seeds import Purpose, generator
-from nightcity.city.street_grid import StreetGrid, media_boxes, snap, street_grid
+from nightcity.city.street_grid import StreetGrid, media_boxes, street_grid
 from nightcity.city.textures import FacadeTexture, facade_textures
 from nightcity.light_lists import light_lists, window_bounds
 from nightcity.progress import Progress
@@ -53,7 +53,7 @@ def _buildings(
     shapes: BuildingShapes,
     textures: tuple[FacadeTexture, ...],
 ) -> list[Building]:
-    base, roof = float(snap(parameters.building_base)), len(textures)
+    base, roof = parameters.building_base, len(textures)
     heights = shapes.heights.ravel()
     origins = np.zeros((heights.size, 3))
     origins[:, :2] = grid.building_centres().reshape(-1, 2)

@@ -10,9 +10,8 @@ import numpy as np
 
 from nightcity.city import perlin
 from nightcity.city.model import FloatArray, IntArray
-from nightcity.city.parameters import CityParameters
+from nightcity.city.parameters import CityParameters, snap
 from nightcity.city.seeds import Purpose, generator, sequence
-from nightcity.city.street_grid import snap
 
 
 @dataclass(frozen=True)
@@ -28,15 +27,18 @@ def building_shapes(parameters: CityParameters) -> BuildingShapes:
     rank = noise_rank(parameters)
     if parameters.heights == "templates":
         big = rank >= 1.0 - parameters.big_share
-        heights = np.where(big, parameters.big_height, parameters.small_height)
-        return BuildingShapes(snap(heights), np.where(big, parameters.big_rows,
-                                                      parameters.small_rows))  # fmt: skip
+        return BuildingShapes(
+            np.where(big, snap(parameters.big_height), snap(parameters.small_height)),
+            np.where(big, parameters.big_rows, parameters.small_rows),
+        )
     low, high = parameters.min_height, parameters.max_height
     wanted = low + (high - low) * rank**parameters.height_exponent
-    lowest = int(np.ceil(low / parameters.floor_height - 1e-9))
-    floors = np.maximum(np.floor(wanted / parameters.floor_height + 1e-9).astype(int), lowest)
+    floors = np.maximum(
+        np.floor(wanted / parameters.floor_height + 1e-9).astype(int), parameters.lowest_floors
+    )
     # The ground line has no window; the paper's small building is one of six 5 m floors.
-    return BuildingShapes(snap(floors * parameters.floor_height), floors - 1)
+    heights = np.vectorize(snap, otypes=[float])(floors * parameters.floor_height)
+    return BuildingShapes(heights, floors - 1)
 
 
 def noise_rank(parameters: CityParameters) -> FloatArray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -30,28 +31,21 @@ from nightcity.city.checked_fields import (
     pair,
 )
 from nightcity.city.textures import BUILT_IN, accept_texture_names
+from nightcity.city.window_colours import colours_field
 from nightcity.errors import UsageError
 
 PRESETS = Path(__file__).with_name("presets")
 DEFAULT_PRESET = "default"
+MOST_WINDOWS = 100_000_000  # about 6 GB while a city is made
 
 
-def _accept_colours(value: object) -> tuple[tuple[float, ...], ...]:
-    """Rows of [red, green, blue, weight]."""
-    if not isinstance(value, list | tuple) or not value:
-        raise ValueError("must be a list of [red, green, blue, weight]")
-    colours = []
-    for row in value:
-        if not isinstance(row, list | tuple) or len(row) != 4:
-            raise ValueError("must be a list of [red, green, blue, weight]")
-        if any(isinstance(part, bool) or not isinstance(part, int | float) for part in row):
-            raise ValueError("must hold numbers only")
-        if not all(0 <= part <= 1000 for part in row):  # false for NaN too
-            raise ValueError("is out of range")
-        colours.append(tuple(float(part) for part in row))
-    if sum(row[3] for row in colours) <= 0:
-        raise ValueError("has no weight above 0")
-    return tuple(colours)
+_STEPS_PER_METRE = 256
+_SNAPPED = {"street_width", "building_base", "haze_layer_thickness"}
+
+
+def snap(length: float) -> float:
+    """A length (m) rounded to 1/256 m: sums and halves stay exact, in float32 too up to 32 km."""
+    return round(length * _STEPS_PER_METRE) / _STEPS_PER_METRE
 
 
 @dataclass(frozen=True)
@@ -98,16 +92,7 @@ class CityParameters:
     window_height: float = number(1.5, 0.05, 50, "height of a window", "m")
     window_offset: float = number(0.01, 0.001, 0.5, "distance of windows from the wall", "m")
     window_power: float = number(50.0, 0, 1e6, "radiant power of a lit window", "W")
-    window_colours: tuple[tuple[float, ...], ...] = custom(
-        ((1.0, 1.0, 1.0, 1.0),),
-        Check(
-            "colours of windows, a list of [red, green, blue, weight]; linear Rec. 709, they "
-            "multiply the power; weight is how often",
-            "",
-            "each 0 to 1000",
-            _accept_colours,
-        ),
-    )
+    window_colours: tuple[tuple[float, ...], ...] = colours_field(((1.0, 1.0, 1.0, 1.0),))
     lit: float = number(1.0, 0, 1, "share of windows that are lit")
     billboard_power: float = number(
         0.0, 0, 1e6, "radiant power of a lit panel on a facade; 0: there is none", "W"
@@ -151,9 +136,10 @@ class CityParameters:
     def __post_init__(self) -> None:
         values = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         for name, value in check_values(CityParameters, values).items():
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, snap(value) if name in _SNAPPED else value)
         self._check_heights()
         self._check_windows()
+        self._check_size()
 
     def _check_heights(self) -> None:
         if self.heights == "templates" and self.big_height < self.small_height:
@@ -165,6 +151,16 @@ class CityParameters:
                 "min_height is below two floors, so its facades have no window; raise min_height "
                 "or lower floor_height"
             )
+        if self.heights == "floors" and self.max_height < self.lowest_floors * self.floor_height:
+            raise UsageError(
+                f"floor_height: no whole number of floors of {self.floor_height:g} m lies between "
+                "min_height and max_height; raise max_height"
+            )
+
+    @property
+    def lowest_floors(self) -> int:
+        """Floors of the lowest building (floors)."""
+        return math.ceil(self.min_height / self.floor_height - 1e-9)
 
     def _check_windows(self) -> None:
         """Windows on one facade must not overlap (their spacing is that of templates.py)."""
@@ -188,6 +184,17 @@ class CityParameters:
         if self.billboard_power > 0 and self.billboard_width > self.building_base:
             raise UsageError("billboard_width is wider than building_base; lower it")
 
+    def _check_size(self) -> None:
+        rows = max(self.small_rows, self.big_rows)
+        if self.heights == "floors":
+            rows = int(self.max_height / self.floor_height)
+        windows = 4 * self.windows_across * rows * self.grid[0] * self.grid[1]
+        if windows > MOST_WINDOWS:
+            raise UsageError(
+                f"grid: the city could hold {windows:,} windows, more than {MOST_WINDOWS:,}; "
+                "lower grid or windows_across"
+            )
+
 
 def preset_names() -> list[str]:
     """The names that ``load_parameters`` and --preset take."""
@@ -206,7 +213,7 @@ def load_parameters(
     else:
         path = _preset_file(source)
     values = _read(path)
-    with _naming(path):
+    with _naming(path, ", with what overrides it" if overrides else ""):
         return CityParameters(**(values | dict(overrides or {})))
 
 
@@ -257,7 +264,7 @@ def _read(path: Path) -> dict[str, object]:
     with _naming(path):
         try:
             values = check_values(CityParameters, tomllib.loads(text))
-        except tomllib.TOMLDecodeError as error:
+        except (ValueError, RecursionError) as error:  # TOMLDecodeError, or a number too long
             raise UsageError(f"is not TOML: {error}") from None
     if "facade_textures" in values:
         values["facade_textures"] = tuple(
@@ -268,9 +275,9 @@ def _read(path: Path) -> dict[str, object]:
 
 
 @contextmanager
-def _naming(path: Path) -> Iterator[None]:
+def _naming(path: Path, suffix: str = "") -> Iterator[None]:
     """Puts the file in front of what a check says."""
-    shown = f"preset {path.stem}" if path.parent == PRESETS else str(path)
+    shown = (f"preset {path.stem}" if path.parent == PRESETS else str(path)) + suffix
     try:
         yield
     except UsageError as error:

@@ -17,12 +17,6 @@ from nightcity.city.parameters import CityParameters
 
 REACH_SCALE = 1.2  # Brito, Real-time Night City Rendering
 CORNER_REACH_SCALE = 1.5  # of boxes at crossings, which face no window
-_STEPS_PER_METRE = 256  # plan lengths and heights are multiples of 1/256 m, exact in float32
-
-
-def snap(length: float | FloatArray) -> FloatArray:
-    """Lengths (m) rounded to 1/256 m: sums and halves of them stay exact."""
-    return np.round(np.asarray(length, dtype=float) * _STEPS_PER_METRE) / _STEPS_PER_METRE
 
 
 @dataclass(frozen=True)
@@ -45,8 +39,8 @@ def street_grid(parameters: CityParameters) -> StreetGrid:
 
 
 def _edges(parameters: CityParameters, buildings: int) -> FloatArray:
-    widths = np.full(2 * buildings + 1, snap(parameters.street_width))
-    widths[1::2] = snap(parameters.building_base)
+    widths = np.full(2 * buildings + 1, parameters.street_width)
+    widths[1::2] = parameters.building_base
     edges = np.concatenate(([0.0], np.cumsum(widths)))
     return edges - 0.5 * edges[-1]
 
@@ -79,7 +73,7 @@ def media_boxes(
     reach = np.where(corners, CORNER_REACH_SCALE, REACH_SCALE)
     boxes = _boxes(0, lo, hi, parameters.extinction, parameters.albedo, reach)
     if parameters.haze_layer_thickness > 0:
-        top = heights.max() + max(snap(parameters.haze_layer_thickness), 1 / _STEPS_PER_METRE)
+        top = heights.max() + parameters.haze_layer_thickness
         lo, hi = _cell_boxes(grid, np.argwhere(np.ones_like(tops)), tops, np.full_like(tops, top))
         reach = np.full(len(lo), REACH_SCALE)
         extinction, albedo = parameters.haze_layer_extinction, parameters.haze_layer_albedo
