@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/convex_face.h"
+
+#include <cmath>
+
+namespace nightcity {
+
+namespace {
+
+constexpr double kPlanar = 1e-6;  // m; float32 corners of one wall differ by this much
+
+// Twice the area times the unit normal.
+glm::dvec3 areaVector(const std::vector<glm::dvec3>& face) {
+    glm::dvec3 sum(0);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+        sum += glm::cross(face[i] - face[0], face[i + 1] - face[0]);
+    }
+    return sum;
+}
+
+// The turn at corner `at` does not go against the normal.
+bool turnsInward(const std::vector<glm::dvec3>& face, std::size_t at, glm::dvec3 normal) {
+    const std::size_t count = face.size();
+    const glm::dvec3 before = face[(at + count - 1) % count];
+    const glm::dvec3 after = face[(at + 1) % count];
+    const glm::dvec3 turn = glm::cross(face[at] - before, after - face[at]);
+    return glm::dot(turn, normal) >= 0;
+}
+
+}  // namespace
+
+bool joinTriangle(std::vector<glm::dvec3>& face, const std::array<glm::dvec3, 3>& triangle) {
+    const glm::dvec3 sum = areaVector(face);
+    const double size = glm::length(sum);
+    if (!(size > 0)) {
+        return false;
+    }
+    const glm::dvec3 normal = sum / size;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+        const std::size_t next = (i + 1) % face.size();
+        for (std::size_t k = 0; k < 3; ++k) {
+            // The common edge runs the other way round in the neighbour.
+            if (triangle[k] != face[next] || triangle[(k + 1) % 3] != face[i]) {
+                continue;
+            }
+            const glm::dvec3 apex = triangle[(k + 2) % 3];
+            const bool planar = std::abs(glm::dot(apex - face[0], normal)) <= kPlanar;
+            const bool outside = glm::dot(glm::cross(face[next] - face[i], apex - face[i]), normal) < 0;
+            if (!planar || !outside) {
+                return false;
+            }
+            std::vector<glm::dvec3> joined = face;
+            joined.insert(joined.begin() + std::ptrdiff_t(i) + 1, apex);
+            const std::size_t count = joined.size();
+            if (!turnsInward(joined, i, normal) || !turnsInward(joined, (i + 2) % count, normal)) {
+                return false;
+            }
+            face = std::move(joined);
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace nightcity

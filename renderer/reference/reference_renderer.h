@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// `--method reference`: the judge of the GPU's march. No Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "frame.h"
+#include "scene/flat_scene.h"
+#include "settings.h"
+
+namespace nightcity {
+
+struct ReferenceImage {
+    Frame frame;
+    RenderStatistics statistics;
+};
+
+// On all cores; the same bytes whatever their number. `progress` (share done, 0 to 1)
+// is called on this thread; what it throws ends the work.
+ReferenceImage renderReference(const FlatScene& scene, const RenderProduct& product,
+                               const RenderSettings& settings,
+                               const std::function<void(double)>& progress);
+
+// `count` distinct pixels of the product's frame whose centre sees a medium before
+// any surface, at random by `seed`, row by row; all of them where there are fewer.
+std::vector<glm::uvec2> selectPixels(const FlatScene& scene, const RenderProduct& product,
+                                     std::size_t count, std::uint64_t seed);
+
+}  // namespace nightcity
