@@ -74,7 +74,7 @@ def _billboard(parameters: CityParameters, grid: StreetGrid, buildings: list[Bui
     building = buildings[row * parameters.grid[0] + column]
     centre = building.origin + building.windows.centres[-1]
     half_width = 0.5 * parameters.billboard_width
-    eye = centre + (-0.8 * half_width, -0.8 * parameters.street_width, -0.5 * centre[2])
+    eye = centre + (-0.8 * half_width, -0.8 * parameters.street_width, -0.25 * centre[2])
     return Camera("billboard", tuple(map(float, eye)), tuple(map(float, centre)), _FOV)
 
 

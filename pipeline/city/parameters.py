@@ -36,7 +36,7 @@ from nightcity.errors import UsageError
 
 PRESETS = Path(__file__).with_name("presets")
 DEFAULT_PRESET = "default"
-MOST_WINDOWS = 100_000_000  # about 6 GB while a city is made
+MOST_WINDOWS = 50_000_000  # 0.34 GB a million while a city is made
 
 
 _STEPS_PER_METRE = 256
