@@ -57,7 +57,7 @@ class EmitterTable:
 
 _EVENTS = ("event_time", "event_row", "event_on")
 ROWS = tuple(f.name for f in fields(EmitterTable) if f.name not in (*_EVENTS, "paths"))
-_SHAPES = {"centre": (3,), "half_u": (3,), "half_v": (3,), "colour": (3,)}
+_SHAPES = {"centre": (3,), "half_u": (3,), "half_v": (3,), "colour": (3,), "outward": (3,)}
 _TYPES = {
     "id": np.int64, "building": np.int64, "owner": np.int64, "number": np.int64,
     "event_row": np.int64, "sphere": bool, "foreign": bool, "on": bool, "event_on": bool,
@@ -67,12 +67,13 @@ _TYPES = {
 def joined(parts: list[dict[str, NDArray]], paths: list[str]) -> EmitterTable:
     """One table of parts that hold every row and event array each; part i comes from paths[i].
 
-    event_row counts within its part.
+    event_row counts within its part. Each part also has ``outward`` (N, 3), the side to which
+    half_u x half_v is made to point: a mirrored transform keeps the lit side.
     """
     counts = np.array([len(part["id"]) for part in parts], dtype=np.int64)
     starts = np.cumsum(counts) - counts
     columns = {}
-    for name in (*ROWS, *_EVENTS):
+    for name in (*ROWS, *_EVENTS, "outward"):
         if name == "owner":
             columns[name] = np.repeat(np.arange(len(parts)), counts)
             continue
@@ -81,6 +82,9 @@ def joined(parts: list[dict[str, NDArray]], paths: list[str]) -> EmitterTable:
         if name == "event_row":
             arrays = [rows + start for rows, start in zip(arrays, starts, strict=True)]
         columns[name] = np.concatenate([empty, *arrays])
+    outward = columns.pop("outward")
+    along = np.einsum("ni,ni->n", np.cross(columns["half_u"], columns["half_v"]), outward)
+    columns["half_u"][along < 0] *= -1
     return EmitterTable(**columns, paths=paths)
 
 
@@ -107,13 +111,6 @@ def _refuse(table: EmitterTable, bad: NDArray[np.bool_], what: str) -> None:
         row = int(np.argmax(bad))
         more = f" (and so are {bad.sum() - 1} more)" if bad.sum() > 1 else ""
         raise SceneError(f"{table.where(row)}: {what}{more}")
-
-
-def face_outward(half_u: FloatArray, half_v: FloatArray, outward: FloatArray) -> FloatArray:
-    """half_u (N, 3), turned round where half_u x half_v points against ``outward`` (N, 3): a
-    mirrored transform keeps the lit side."""
-    along = np.einsum("ni,ni->n", np.cross(half_u, half_v), outward)
-    return np.where(along[:, None] < 0, -half_u, half_u)
 
 
 def number_uniquely(table: EmitterTable, notes: Notes) -> None:

@@ -22,27 +22,22 @@ def instance_transforms(
     Raises SceneError naming the attribute whose length or content does not fit.
     """
     instancer = UsdGeom.PointInstancer(prim)
-    count = _checked_count(source, instancer)
-    if count == 0:
-        return np.empty((0, 4, 4))
+    count = len(prototype_indices(source, prim))
+    _check_lengths(source, prim, count)
     transforms = instancer.ComputeInstanceTransformsAtTime(
         source.time,
         source.time,
         instancer.IncludeProtoXform if with_prototype else instancer.ExcludeProtoXform,
         instancer.IgnoreMask,
     )
-    if transforms is None or len(transforms) != count:
-        raise SceneError(
-            f"{prim.GetPath()}: USD cannot compute the transforms of its instances;"
-            " check prototypes and protoIndices"
-        )
-    return np.array(transforms, dtype=np.float64)
+    if len(transforms) != count:
+        raise SceneError(_misfit(source, instancer, count))
+    return np.array(transforms, dtype=np.float64).reshape(-1, 4, 4)
 
 
 def prototype_indices(source: Source, prim: Usd.Prim) -> NDArray[np.int64]:
     """(N,) into the targets of ``prototypes``."""
-    indices = prim.GetAttribute("protoIndices").Get(source.time)
-    return np.array(indices if indices is not None else [], dtype=np.int64)
+    return np.array(source.value(prim, "protoIndices", ()), dtype=np.int64)
 
 
 def instance_masks(
@@ -56,29 +51,33 @@ def instance_masks(
     return times, np.stack(rows)
 
 
-def _checked_count(source: Source, instancer: UsdGeom.PointInstancer) -> int:
-    prim, time = instancer.GetPrim(), source.time
-    for name in ("positions", "protoIndices", "orientations", "orientationsf", "scales"):
+def _check_lengths(source: Source, prim: Usd.Prim, count: int) -> None:
+    """USD drops these arrays with no more than a warning where their length does not fit."""
+    for name in ("orientations", "orientationsf", "scales", "ids"):
         attribute = prim.GetAttribute(name)
-        if attribute and source.varies(attribute):
-            source.notes.about(
-                f"Moving instances are taken at frame {source.frames[0]}", prim.GetPath()
-            )
+        if not attribute or not attribute.HasAuthoredValue():
+            continue
+        values = source.value(prim, name, ())
+        if len(values) not in (0, count):
+            raise SceneError(_wrong_length(prim, name, len(values), count))
+
+
+def _wrong_length(prim: Usd.Prim, name: str, length: int, count: int) -> str:
+    return (
+        f"{prim.GetPath()}.{name} has {length} values, but protoIndices has {count}; there must be"
+        " one for each instance"
+    )
+
+
+def _misfit(source: Source, instancer: UsdGeom.PointInstancer, count: int) -> str:
+    """Why USD computes no transforms."""
+    prim = instancer.GetPrim()
+    positions = len(source.value(prim, "positions", ()))
+    if positions != count:
+        return _wrong_length(prim, "positions", positions, count)
     indices = prototype_indices(source, prim)
-    count = len(indices)
-    required = {"positions"}
-    for name in ("positions", "orientations", "orientationsf", "scales", "ids"):
-        values = prim.GetAttribute(name).Get(time) if prim.GetAttribute(name) else None
-        length = 0 if values is None else len(values)
-        if length != count and (length > 0 or name in required):
-            raise SceneError(
-                f"{prim.GetPath()}: {name} has {length} values, but protoIndices has {count};"
-                " there must be one for each instance"
-            )
     targets = len(instancer.GetPrototypesRel().GetForwardedTargets())
-    if count and (indices.min() < 0 or indices.max() >= targets):
-        raise SceneError(
-            f"{prim.GetPath()}: protoIndices must lie between 0 and {targets - 1}"
-            f" (there are {targets} prototypes), but reaches {indices.min()} and {indices.max()}"
-        )
-    return count
+    return (
+        f"{prim.GetPath()}: its {targets} prototypes do not fit its protoIndices, which reach from"
+        f" {indices.min()} to {indices.max()}, or one of them is no prim of the stage"
+    )

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdLux
 
 from nightcity.errors import SceneError
-from nightcity.export.emitters import NO_ID, face_outward
+from nightcity.export.emitters import NO_ID
 from nightcity.export.findings import Item
 from nightcity.export.open_stage import Source
 
@@ -72,6 +72,7 @@ def _read(source: Source, item: Item) -> Columns | None:
         "centre": item.matrices[:, 3, :3],
         "half_u": half_u,
         "half_v": half_v,
+        "outward": -item.matrices[:, 2, :3],  # UsdLux lights shine along -z
         "power": np.pi * area * radiance,
         "colour": np.tile(colour, (copies, 1)),
         "id": np.full(copies, NO_ID),
@@ -104,21 +105,18 @@ def _emission(source: Source, prim: Usd.Prim) -> tuple[float, FloatArray]:
 def _rectangle(source: Source, prim: Usd.Prim, matrices: FloatArray) -> tuple[FloatArray, ...]:
     width, height = (_length(source, prim, f"inputs:{name}") for name in ("width", "height"))
     half_u, half_v = 0.5 * width * matrices[:, 0, :3], 0.5 * height * matrices[:, 1, :3]
-    return _facing_down(half_u, half_v, matrices)
+    return _with_area(half_u, half_v)
 
 
 def _disk(source: Source, prim: Usd.Prim, matrices: FloatArray) -> tuple[FloatArray, ...]:
     source.notes.about("A DiskLight becomes a square of equal area and power", prim.GetPath())
     half = 0.5 * np.sqrt(np.pi) * _length(source, prim, "inputs:radius")
-    return _facing_down(half * matrices[:, 0, :3], half * matrices[:, 1, :3], matrices)
+    return _with_area(half * matrices[:, 0, :3], half * matrices[:, 1, :3])
 
 
-def _facing_down(
-    half_u: FloatArray, half_v: FloatArray, matrices: FloatArray
-) -> tuple[FloatArray, ...]:
-    """UsdLux lights shine along -z."""
+def _with_area(half_u: FloatArray, half_v: FloatArray) -> tuple[FloatArray, ...]:
     area = 4 * np.linalg.norm(np.cross(half_u, half_v), axis=1)
-    return face_outward(half_u, half_v, -matrices[:, 2, :3]), half_v, area
+    return half_u, half_v, area
 
 
 def _sphere(source: Source, prim: Usd.Prim, matrices: FloatArray) -> tuple[FloatArray, ...]:

@@ -34,17 +34,19 @@ class Source:
     root: NDArray[np.float64]
     knows_frames: bool = True
     notes: Notes = field(default_factory=Notes)
+    time: Usd.TimeCode = field(init=False)  # the first frame
+    still: bool = field(init=False)  # nothing can vary within the frames
 
-    @property
-    def time(self) -> Usd.TimeCode:
-        return Usd.TimeCode(self.frames[0])
+    def __post_init__(self) -> None:
+        self.time = Usd.TimeCode(self.frames[0])
+        self.still = self.knows_frames and self.frames[0] == self.frames[1]
 
     def value(self, prim: Usd.Prim, name: str, fallback: object = None) -> object:
         """Composed value of an attribute at the first frame; a note where it changes later."""
         attribute = prim.GetAttribute(name)
         if not attribute:
             return fallback
-        if self.varies(attribute):
+        if not self.still and self.varies(attribute):
             self.notes.about(
                 f"An animated {name} is taken at frame {self.frames[0]}", prim.GetPath()
             )
@@ -53,7 +55,7 @@ class Source:
 
     def varies(self, item: Usd.Attribute | UsdGeom.Xformable) -> bool:
         """Whether an attribute or a local transform may change within the frames."""
-        if self.knows_frames and self.frames[0] == self.frames[1]:
+        if self.still:
             return False
         check: Callable[[], bool] = (
             item.ValueMightBeTimeVarying

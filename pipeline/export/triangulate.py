@@ -27,9 +27,7 @@ def triangulate(
     """
     starts = np.cumsum(counts) - counts
     corners, owners = [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
-    for size in np.unique(counts):
-        if size < 3:
-            continue
+    for size in np.flatnonzero(np.bincount(counts)[3:]) + 3:
         faces = np.flatnonzero(counts == size)
         loop = starts[faces][:, None] + np.arange(size)
         first = np.broadcast_to(loop[:, :1], (len(faces), size - 2))

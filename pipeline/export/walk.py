@@ -130,14 +130,15 @@ class _Walker:
         matrix = np.array(local) @ (self._root if resets else inherited.matrix)
         if not np.isfinite(matrix).all():
             raise SceneError(f"{prim.GetPath()}: its transform is not finite")
-        if inherited.moving is None or resets:
+        if not source.still and (inherited.moving is None or resets):
             moves = source.varies(UsdGeom.Xformable(prim))
             changes["moving"] = str(prim.GetPath()) if moves else None
         visibility = prim.GetAttribute("visibility")
-        times = change_times(visibility, source.frames)
-        values = tuple(visibility.Get(time) != "invisible" for time in times)
-        if not all(values):
-            changes["visible"] = inherited.visible.both(Timeline(tuple(times), values))
+        if visibility.HasAuthoredValue():
+            times = change_times(visibility, source.frames)
+            values = tuple(visibility.Get(time) != "invisible" for time in times)
+            if not all(values):
+                changes["visible"] = inherited.visible.both(Timeline(tuple(times), values))
         purpose = prim.GetAttribute("purpose")
         if purpose.HasAuthoredValue():
             changes["purpose"] = purpose.Get()

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from nightcity.errors import SceneError
-from nightcity.export.emitters import NO_ID, face_outward
+from nightcity.export.emitters import NO_ID
 from nightcity.export.findings import Item
 from nightcity.export.instancer import instance_masks, instance_transforms
 from nightcity.export.open_stage import Source
@@ -54,15 +54,15 @@ def _read(source: Source, item: Item) -> Columns:
     if not (np.isfinite(size) & (size > 0)).all():
         raise SceneError(f"{prim.GetPath()}.nightcity:windowSize is {size}; it must be above 0")
     world = (transforms[kept][None] @ item.matrices[:, None]).reshape(-1, 4, 4)
-    half_v = 0.5 * size[1] * world[:, 1, :3]
     copies, rows = len(item.matrices), len(world)
     changed = np.diff(states[:, kept].astype(np.int8), axis=0)
     step, column = np.nonzero(changed)
     shift = len(kept) * np.arange(copies)[:, None]
     return {
         "centre": world[:, 3, :3],
-        "half_u": face_outward(0.5 * size[0] * world[:, 0, :3], half_v, world[:, 2, :3]),
-        "half_v": half_v,
+        "half_u": 0.5 * size[0] * world[:, 0, :3],
+        "half_v": 0.5 * size[1] * world[:, 1, :3],
+        "outward": world[:, 2, :3],
         "power": np.tile(_per_window(source, prim, "nightcity:power", count)[kept], copies),
         "colour": np.tile(_per_window(source, prim, "nightcity:color", count)[kept], (copies, 1)),
         "id": np.tile(ids[kept], copies),
@@ -90,6 +90,9 @@ def _states(
     mask_times, masks = instance_masks(source, item.prim, count)
     first = float(source.frames[0])
     later = [time for time in item.visible.times if time > first]
+    if len(lit_times) == len(mask_times) == 1 and not later:
+        shown = masks & item.visible.at(first)
+        return lit_times, lit_rows[0] & shown, shown[0]
     times = sorted({*lit_times, *mask_times, *later})
     lit_at = np.searchsorted(lit_times, times, side="right") - 1
     mask_at = np.searchsorted(mask_times, times, side="right") - 1
