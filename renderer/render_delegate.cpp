@@ -2,16 +2,146 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_delegate.h"
 
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
 #include "errors.h"
+#include "gpu/commands.h"
+#include "gpu/device.h"
+#include "gpu/instance.h"
+#include "gpu/physical_device.h"
+#include "passes/frame_renderer.h"
+#include "passes/gpu_scene.h"
 
 namespace nightcity {
+namespace {
 
-std::vector<std::string> listDevices() {
-    return {};
+class VulkanDelegate final : public RenderDelegate {
+public:
+    explicit VulkanDelegate(const DeviceOptions& options)
+        : instance_(options.validation),
+          device_(instance_.get(),
+                  gpu::chooseDevice(gpu::describeDevices(instance_.get()), options.device)),
+          commands_(device_),
+          scene_(device_, commands_),
+          renderer_(device_, commands_) {
+        statistics_.device = device_.name();
+        if (device_.limits().nanosecondsPerTick == 0) {
+            deviceNotes_.push_back(device_.name() +
+                                   " has no timestamps: passes are not timed one by one");
+        }
+        instance_.throwIfMessages();
+    }
+
+    void sync(const FlatScene& scene, int frame, const RenderSettings& settings,
+              const SceneChanges& changes) override {
+        const auto start = std::chrono::steady_clock::now();
+        const bool all = flatScene_ != &scene;
+        flatScene_ = nullptr;  // until all of it is on the device
+        if (all || changes.geometry) {
+            scene_.syncGeometry(scene);
+        }
+        scene_.syncWindowState(scene, frame, settings);
+        flatScene_ = &scene;
+        renderer_.sceneChanged();
+        const std::chrono::duration<double, std::milli> wall =
+            std::chrono::steady_clock::now() - start;
+        statistics_.bakeMilliseconds = wall.count();
+        const LightStorageChoice& lights = scene_.lightStorage();
+        const bool uniform = lights.storage == LightStorage::uniform;
+        statistics_.lightStorage = uniform ? "uniform" : "storage";
+        statistics_.lightPages = uniform ? lights.pageCount : 0;
+        instance_.throwIfMessages();
+    }
+
+    void render(const RenderProduct& product, const RenderSettings& settings,
+                const ProgressCallback& progress) override {
+        checkProduct(product, settings);
+        const CameraFrame& camera = flatScene_->camera(product.camera).at(product.frame);
+        frame_ = {};
+        if (product.pixels.empty()) {
+            frame_.resize(product.width, product.height);
+        } else {
+            frame_.resize(static_cast<std::uint32_t>(product.pixels.size()), 1);
+        }
+        FrameCost cost = renderer_.render(scene_, camera, product, settings, progress, frame_);
+        statistics_.frameMilliseconds = cost.milliseconds;
+        statistics_.passes = std::move(cost.passes);
+        statistics_.lightEvaluations = cost.lightEvaluations;
+        statistics_.deviceMemoryBytes = device_.allocatedBytes();
+        instance_.throwIfMessages();
+    }
+
+    Frame resolve() override { return std::move(frame_); }
+
+    RenderStatistics statistics() const override { return statistics_; }
+
+    std::vector<std::string> notes() const override {
+        std::vector<std::string> all = deviceNotes_;
+        const std::vector<std::string> ofScene = scene_.notes();
+        all.insert(all.end(), ofScene.begin(), ofScene.end());
+        return all;
+    }
+
+private:
+    void checkProduct(const RenderProduct& product, const RenderSettings& settings) const {
+        if (flatScene_ == nullptr) {
+            throw std::logic_error("render before a sync that succeeded");
+        }
+        if (settings.method != Method::march) {
+            throw std::logic_error("the device renders --method march only");
+        }
+        if (product.width == 0 || product.height == 0) {
+            throw UsageError("--size: width and height must be at least 1 pixel");
+        }
+        if (settings.subdivisions == 0) {
+            throw UsageError("--subdivisions must be at least 1");
+        }
+        for (const glm::uvec2& pixel : product.pixels) {
+            if (pixel.x >= product.width || pixel.y >= product.height) {
+                throw UsageError("--pixels: pixel " + std::to_string(pixel.x) + ", " +
+                                 std::to_string(pixel.y) + " lies outside the frame of " +
+                                 std::to_string(product.width) + " x " +
+                                 std::to_string(product.height));
+            }
+        }
+    }
+
+    gpu::Instance instance_;
+    gpu::Device device_;
+    gpu::Commands commands_;
+    GpuScene scene_;
+    FrameRenderer renderer_;
+    const FlatScene* flatScene_ = nullptr;
+    Frame frame_;
+    RenderStatistics statistics_;
+    std::vector<std::string> deviceNotes_;
+};
+
+std::string describeInOneLine(std::size_t index, const gpu::DeviceDescription& device) {
+    std::string line = std::to_string(index) + ": " + device.name + " (" + device.driver + ")";
+    const std::vector<std::string> missing = device.missing();
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+        line += (i == 0 ? " - lacks " : ", ") + missing[i];
+    }
+    return line;
 }
 
-std::unique_ptr<RenderDelegate> RenderDelegate::create(const DeviceOptions&) {
-    throw DeviceError("this build renders on no GPU yet; --method reference runs on the CPU");
+}  // namespace
+
+std::vector<std::string> listDevices() {
+    const gpu::Instance instance(false);
+    std::vector<std::string> lines;
+    const std::vector<gpu::DeviceDescription> devices = gpu::describeDevices(instance.get());
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        lines.push_back(describeInOneLine(i, devices[i]));
+    }
+    return lines;
+}
+
+std::unique_ptr<RenderDelegate> RenderDelegate::create(const DeviceOptions& options) {
+    return std::make_unique<VulkanDelegate>(options);
 }
 
 }  // namespace nightcity

@@ -1,3 +1,55 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Adds one sample a pixel to the images of a band, in the order of the samples.
 #version 460
-layout(local_size_x = 256) in;
-void main() {}
+#extension GL_GOOGLE_include_directive : require
+
+#include "addresses.glsl"
+#include "transport/exponential.glsl"
+
+layout(local_size_x = kGroupSize) in;
+layout(constant_id = NIGHTCITY_CONSTANT_MEDIA) const uint kMedia = 1;
+
+void keepCentre(uint index, SurfaceRecord record, int firstMediaId) {
+    FloatArray(frameTable.depth).at[index] = record.depth;
+    Vec3Array(frameTable.normal).at[index] = record.normal;
+    FloatArray(frameTable.mediaId).at[index] = float(firstMediaId);
+    FloatArray(frameTable.materialId).at[index] = float(record.material);
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= push.pixelCount) {
+        return;
+    }
+    SurfaceRecord record = SurfaceRecordArray(frameTable.surfaces).at[index];
+    vec3 glow = vec3(0.0);
+    float transmittance = 1.0;
+    int firstMediaId = -1;
+    if (kMedia != 0u) {
+        RayProgress progress = RayProgressArray(frameTable.progress).at[index];
+        glow = progress.glow;
+        transmittance = expNegative(progress.opticalDepth);
+        firstMediaId = progress.firstMediaId;
+    }
+    float weight = 1.0 / float(frameTable.sampleCount);
+    float alpha = record.normal == vec3(0.0) ? 1.0 - transmittance : 1.0;
+    vec3 surface = record.radiance * transmittance;
+    vec4 sumSurface = vec4(surface, alpha) * weight;
+    vec3 sumGlow = glow * weight;
+    float sumTransmittance = transmittance * weight;
+    if (push.sampleIndex > 0u) {
+        sumSurface.rgb += Vec3Array(frameTable.surface).at[index];
+        sumSurface.a += Vec4Array(frameTable.beauty).at[index].a;
+        sumGlow += Vec3Array(frameTable.glow).at[index];
+        sumTransmittance += FloatArray(frameTable.transmittance).at[index];
+    }
+    Vec3Array(frameTable.surface).at[index] = sumSurface.rgb;
+    Vec3Array(frameTable.glow).at[index] = sumGlow;
+    Vec4Array(frameTable.beauty).at[index] = vec4(sumSurface.rgb + sumGlow, sumSurface.a);
+    FloatArray(frameTable.transmittance).at[index] = sumTransmittance;
+    if (push.sampleIndex == frameTable.centreSample) {
+        keepCentre(index, record, firstMediaId);
+    }
+}

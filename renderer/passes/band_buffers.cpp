@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/band_buffers.h"
+
+#include <cstring>
+
+#include "passes/gpu_scene.h"
+
+namespace nightcity {
+namespace {
+
+template <typename T>
+void copyImage(std::vector<T>& target, std::uint64_t first, std::uint32_t count,
+               const void* images, std::uint64_t offset) {
+    std::memcpy(target.data() + first, static_cast<const char*>(images) + offset,
+                count * sizeof(T));
+}
+
+}  // namespace
+
+BandBuffers::ImageOffsets BandBuffers::imageOffsets(std::uint64_t rays) {
+    ImageOffsets at{};
+    at.glow = at.beauty + rays * sizeof(vec4);
+    at.surface = at.glow + rays * sizeof(vec3);
+    at.transmittance = at.surface + rays * sizeof(vec3);
+    at.depth = at.transmittance + rays * sizeof(float);
+    at.normal = at.depth + rays * sizeof(float);
+    at.mediaId = at.normal + rays * sizeof(vec3);
+    at.materialId = at.mediaId + rays * sizeof(float);
+    at.end = at.materialId + rays * sizeof(float);
+    return at;
+}
+
+BandBuffers::BandBuffers(gpu::Device& device, std::uint32_t rays) : device_(device), rays_(rays) {
+    using gpu::MemoryKind;
+    const std::uint64_t count = rays;
+    surfaces_ = {device, "surface records", count * sizeof(SurfaceRecord), MemoryKind::device};
+    progress_ = {device, "ray progress", count * sizeof(RayProgress), MemoryKind::device};
+    segments_ = {device, "segments", count * kSegmentSlots * sizeof(Segment), MemoryKind::device};
+    table_ = {device, "frame table", sizeof(FrameTable), MemoryKind::device};
+    images_ = {device, "images", imageOffsets(count).end};
+    counters_ = {device, "pass counters", sizeof(PassCounters)};
+}
+
+void BandBuffers::prepare(gpu::Commands& commands, FrameTable table,
+                          const std::vector<uvec2>& pixels, const std::vector<vec2>& samples) {
+    table.pixels = uvec2(0);
+    if (!pixels.empty()) {
+        pixels_ = {};
+        pixels_ = {device_, "pixel list", pixels.size() * sizeof(uvec2), gpu::MemoryKind::device};
+        commands.upload(pixels_, pixels.data(), pixels.size() * sizeof(uvec2));
+        table.pixels = addressWords(pixels_.address());
+    }
+    samples_ = {};
+    samples_ = {device_, "sample positions", samples.size() * sizeof(vec2),
+                gpu::MemoryKind::device};
+    commands.upload(samples_, samples.data(), samples.size() * sizeof(vec2));
+    table.samples = addressWords(samples_.address());
+    table.surfaces = addressWords(surfaces_.address());
+    table.progress = addressWords(progress_.address());
+    table.segments = addressWords(segments_.address());
+    table.counters = addressWords(counters_.buffer().address());
+
+    const ImageOffsets at = imageOffsets(rays_);
+    const VkDeviceAddress images = images_.buffer().address();
+    table.beauty = addressWords(images + at.beauty);
+    table.glow = addressWords(images + at.glow);
+    table.surface = addressWords(images + at.surface);
+    table.transmittance = addressWords(images + at.transmittance);
+    table.depth = addressWords(images + at.depth);
+    table.normal = addressWords(images + at.normal);
+    table.mediaId = addressWords(images + at.mediaId);
+    table.materialId = addressWords(images + at.materialId);
+    table.bandRays = rays_;
+    commands.upload(table_, &table, sizeof(FrameTable));
+}
+
+void BandBuffers::copyTo(Frame& frame, std::uint64_t first, std::uint32_t count) const {
+    const ImageOffsets at = imageOffsets(rays_);
+    const void* images = images_.data();
+    copyImage(frame.beauty, first, count, images, at.beauty);
+    copyImage(frame.glow, first, count, images, at.glow);
+    copyImage(frame.surface, first, count, images, at.surface);
+    copyImage(frame.transmittance, first, count, images, at.transmittance);
+    copyImage(frame.depth, first, count, images, at.depth);
+    copyImage(frame.normal, first, count, images, at.normal);
+    copyImage(frame.mediaId, first, count, images, at.mediaId);
+    copyImage(frame.materialId, first, count, images, at.materialId);
+}
+
+}  // namespace nightcity

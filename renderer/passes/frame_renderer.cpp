@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/frame_renderer.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "sample_positions.h"
+
+namespace nightcity {
+namespace {
+
+constexpr std::uint32_t kSpansPerBatch = 3;  // surface, traverse, march
+// Pixels of a band: about 100 MiB of records and images.
+constexpr std::uint32_t kBandPixels = 1u << 18;
+
+std::uint32_t groupsFor(std::uint32_t threads) {
+    return (threads + kGroupSize - 1) / kGroupSize;
+}
+
+// Splits a position into what float holds and what it loses.
+void setPosition(FrameTable& table, const CameraFrame& camera, glm::vec3 offset) {
+    const glm::dvec3 exact = glm::dvec3(camera.position) + glm::dvec3(offset);
+    table.camera = camera;
+    table.camera.position = glm::vec3(exact);
+    table.positionLow = glm::vec3(exact - glm::dvec3(table.camera.position));
+}
+
+}  // namespace
+
+struct FrameRenderer::Work {
+    const GpuScene& scene;
+    const RenderSettings& settings;
+    std::vector<vec2> samples;
+    std::uint64_t pixels = 0;
+    FrameCost cost;
+};
+
+FrameRenderer::FrameRenderer(gpu::Device& device, gpu::Commands& commands)
+    : device_(device), commands_(commands), timestamps_(device, kSpansPerBatch) {}
+
+FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera,
+                                const RenderProduct& product, const RenderSettings& settings,
+                                const ProgressCallback& progress, Frame& frame) {
+    Work work{scene, settings, samplePositions(settings), 0, {}};
+    work.pixels = product.pixels.empty()
+                      ? std::uint64_t{product.width} * product.height
+                      : product.pixels.size();
+    preparePipelines(scene, settings);
+    prepareBand(work, camera, product);
+
+    PushConstants push{};
+    push.scene = addressWords(scene.tableAddress());
+    push.frame = addressWords(band_->tableAddress());
+    for (std::uint64_t first = 0; first < work.pixels; first += band_->rays()) {
+        push.firstPixel = static_cast<std::uint32_t>(first);
+        push.pixelCount =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(band_->rays(), work.pixels - first));
+        for (std::uint32_t sample = 0; sample < work.samples.size(); ++sample) {
+            push.sampleIndex = sample;
+            traceSample(work, push);
+            accumulateSample(work, push, sample + 1 == work.samples.size());
+            if (progress) {
+                const double within = (sample + 1.0) / static_cast<double>(work.samples.size());
+                progress((static_cast<double>(first) + within * push.pixelCount) /
+                         static_cast<double>(work.pixels));
+            }
+        }
+        band_->copyTo(frame, first, push.pixelCount);
+    }
+    return work.cost;
+}
+
+void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderSettings& settings) {
+    const PipelineChoice choice{settings.marchOrder, scene.lightStorage(), settings.media};
+    if (!pipelines_ || pipelines_->choice != choice) {
+        pipelines_ = std::make_unique<PassPipelines>(device_, choice);
+        bound_ = false;
+    }
+    if (!bound_) {
+        pipelines_->bind(scene);
+    }
+}
+
+void FrameRenderer::prepareBand(const Work& work, const CameraFrame& camera,
+                                const RenderProduct& product) {
+    const std::uint32_t rays =
+        groupsFor(static_cast<std::uint32_t>(std::min<std::uint64_t>(work.pixels, kBandPixels))) *
+        kGroupSize;
+    if (!band_ || band_->rays() != rays) {
+        band_.reset();
+        band_ = std::make_unique<BandBuffers>(device_, rays);
+    }
+    FrameTable table{};
+    setPosition(table, camera, product.cameraOffset);
+    table.width = product.width;
+    table.height = product.height;
+    table.subdivisions = work.settings.subdivisions;
+    table.sampleCount = static_cast<std::uint32_t>(work.samples.size());
+    table.centreSample = static_cast<std::uint32_t>(centreSample(work.samples));
+    band_->prepare(commands_, table, product.pixels, work.samples);
+    if (!bound_) {
+        warmUp(work.scene);
+        bound_ = true;
+    }
+}
+
+// Drivers finish compiling a pipeline at its first dispatch: an empty one keeps that out of
+// the frame's time.
+void FrameRenderer::warmUp(const GpuScene& scene) {
+    PushConstants push{};
+    push.scene = addressWords(scene.tableAddress());
+    push.frame = addressWords(band_->tableAddress());
+    commands_.run("warm-up", [&](VkCommandBuffer commands) {
+        for (const gpu::ComputePipeline* pipeline :
+             {&pipelines_->surface, &pipelines_->traverse, &pipelines_->march,
+              &pipelines_->accumulate}) {
+            pipeline->dispatch(commands, &push, 1);
+        }
+    });
+}
+
+void FrameRenderer::traceSample(Work& work, PushConstants push) {
+    const VkBuffer counterBuffer = band_->counters().buffer().get();
+    const bool media = work.settings.media;
+    for (push.round = 0;; ++push.round) {
+        const double milliseconds = commands_.run("trace", [&](VkCommandBuffer commands) {
+            timestamps_.begin(commands);
+            vkCmdFillBuffer(commands, counterBuffer, 0, sizeof(PassCounters), 0);
+            gpu::computeBarrier(commands);
+            if (push.round == 0) {
+                dispatch(commands, "surface", pipelines_->surface, push);
+            }
+            if (media) {
+                dispatch(commands, "traverse", pipelines_->traverse, push);
+                dispatch(commands, "march", pipelines_->march, push);
+            }
+            band_->counters().recordReadback(commands);
+        });
+        collectTimes(work.cost, milliseconds);
+        const std::uint64_t lightSegments =
+            counters().lightSegmentsLow | std::uint64_t{counters().lightSegmentsHigh} << 32;
+        work.cost.lightEvaluations += lightSegments * work.settings.subdivisions;
+        if (counters().unfinished == 0) {
+            return;
+        }
+    }
+}
+
+void FrameRenderer::accumulateSample(Work& work, const PushConstants& push, bool last) {
+    const double milliseconds = commands_.run("accumulate", [&](VkCommandBuffer commands) {
+        timestamps_.begin(commands);
+        gpu::computeBarrier(commands);
+        dispatch(commands, "accumulate", pipelines_->accumulate, push);
+        if (last) {
+            band_->images().recordReadback(commands);
+        }
+    });
+    collectTimes(work.cost, milliseconds);
+}
+
+void FrameRenderer::dispatch(VkCommandBuffer commands, const char* name,
+                             const gpu::ComputePipeline& pipeline, const PushConstants& push) {
+    timestamps_.span(commands, name, [&] {
+        pipeline.dispatch(commands, &push, groupsFor(push.pixelCount));
+    });
+    gpu::computeBarrier(commands);
+}
+
+void FrameRenderer::collectTimes(FrameCost& cost, double milliseconds) {
+    cost.milliseconds += milliseconds;
+    for (const auto& [name, elapsed] : timestamps_.read()) {
+        const auto known = std::find_if(cost.passes.begin(), cost.passes.end(),
+                                        [&name](const PassTime& pass) { return pass.name == name; });
+        if (known == cost.passes.end()) {
+            cost.passes.push_back({name, elapsed});
+        } else {
+            known->milliseconds += elapsed;
+        }
+    }
+}
+
+const PassCounters& FrameRenderer::counters() const {
+    return *static_cast<const PassCounters*>(band_->counters().data());
+}
+
+}  // namespace nightcity

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders a frame band by band: surface, traverse, march, accumulate.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "frame.h"
+#include "gpu/commands.h"
+#include "gpu/timestamps.h"
+#include "passes/band_buffers.h"
+#include "passes/gpu_scene.h"
+#include "passes/pass_pipelines.h"
+#include "render_delegate.h"
+#include "settings.h"
+
+namespace nightcity {
+
+// What a rendered frame cost.
+struct FrameCost {
+    double milliseconds = 0;         // from submissions to fences
+    std::vector<PassTime> passes;    // in order; empty where the device has no timestamps
+    std::uint64_t lightEvaluations = 0;
+};
+
+class FrameRenderer {
+public:
+    FrameRenderer(gpu::Device& device, gpu::Commands& commands);
+
+    // To be called when the scene was synced: pipelines and bindings may be stale.
+    void sceneChanged() { bound_ = false; }
+    // `camera` as it is at the product's frame. Fills `frame`.
+    FrameCost render(const GpuScene& scene, const CameraFrame& camera,
+                     const RenderProduct& product, const RenderSettings& settings,
+                     const ProgressCallback& progress, Frame& frame);
+
+private:
+    struct Work;  // one render call
+
+    void preparePipelines(const GpuScene& scene, const RenderSettings& settings);
+    void prepareBand(const Work& work, const CameraFrame& camera, const RenderProduct& product);
+    void warmUp(const GpuScene& scene);
+    void traceSample(Work& work, PushConstants push);
+    void accumulateSample(Work& work, const PushConstants& push, bool last);
+    void dispatch(VkCommandBuffer commands, const char* name, const gpu::ComputePipeline& pipeline,
+                  const PushConstants& push);
+    void collectTimes(FrameCost& cost, double milliseconds);
+    const PassCounters& counters() const;
+
+    gpu::Device& device_;
+    gpu::Commands& commands_;
+    gpu::Timestamps timestamps_;
+    std::unique_ptr<PassPipelines> pipelines_;
+    std::unique_ptr<BandBuffers> band_;
+    bool bound_ = false;
+};
+
+}  // namespace nightcity

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/gpu_scene.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+
+#include "errors.h"
+#include "scene/facades.h"
+
+namespace nightcity {
+namespace {
+
+constexpr VkBufferUsageFlags kBuildInput =
+    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+constexpr std::uint32_t kLargestPageBytes = 65536;
+
+// A device may place a box by a rounded ray; the exact test is the shader's, so the box that
+// the device tests is grown by more than the rounding of any ray within kilometres. m.
+VkAabbPositionsKHR inflated(glm::vec3 lo, glm::vec3 hi) {
+    const glm::vec3 size = glm::max(glm::abs(lo), glm::abs(hi));
+    const float margin = 0.01f + 1e-5f * std::max({size.x, size.y, size.z});
+    return {lo.x - margin, lo.y - margin, lo.z - margin,
+            hi.x + margin, hi.y + margin, hi.z + margin};
+}
+
+glm::vec3 halfExtent(const Window& window) {
+    if ((window.flags & kWindowSphere) != 0) {
+        return glm::vec3(glm::length(window.halfU));
+    }
+    return glm::abs(window.halfU) + glm::abs(window.halfV);
+}
+
+std::vector<std::uint32_t> triangleIndices(const FlatScene& scene) {
+    std::vector<std::uint32_t> indices;
+    indices.reserve(scene.triangles.size() * 3);
+    for (const Triangle& triangle : scene.triangles) {
+        indices.insert(indices.end(),
+                       {triangle.vertex.x, triangle.vertex.y, triangle.vertex.z});
+    }
+    return indices;
+}
+
+std::vector<std::uint32_t> stateBits(std::span<const std::uint8_t> windowOn) {
+    std::vector<std::uint32_t> words((windowOn.size() + 31) / 32);
+    for (size_t i = 0; i < windowOn.size(); ++i) {
+        words[i / 32] |= (windowOn[i] != 0 ? 1u : 0u) << (i % 32);
+    }
+    return words;
+}
+
+}  // namespace
+
+uvec2 addressWords(VkDeviceAddress address) {
+    return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32)};
+}
+
+template <typename T>
+uvec2 GpuScene::uploadArray(const char* name, std::span<const T> data) {
+    gpu::Buffer buffer(device_, name, data.size_bytes(), gpu::MemoryKind::device, kBuildInput);
+    commands_.upload(buffer, data.data(), data.size_bytes());
+    const uvec2 address = addressWords(buffer.address());
+    arrays_.push_back(std::move(buffer));
+    return address;
+}
+
+void GpuScene::syncGeometry(const FlatScene& scene) {
+    arrays_.clear();
+    contents_ = {};
+    uploadGeometry(scene);
+    buildTriangles(scene);
+    buildMedia(scene);
+    buildLoosePanes(scene);
+    buildTopLevel();
+}
+
+void GpuScene::uploadGeometry(const FlatScene& scene) {
+    const FacadeTable facades = buildFacades(scene);
+    looseWindows_ = facades.looseWindows;
+    contents_.positions = uploadArray("positions", scene.positions);
+    if (!scene.texcoords.empty()) {
+        contents_.texcoords = uploadArray("texcoords", scene.texcoords);
+    }
+    contents_.triangles = uploadArray("triangles", scene.triangles);
+    contents_.materials = uploadArray("materials", scene.materials);
+    contents_.texels = uploadArray("texels", scene.texels);
+    contents_.windows = uploadArray("windows", scene.windows);
+    contents_.mediaBoxes = uploadArray("media boxes", scene.mediaBoxes);
+    contents_.facades = uploadArray<Facade>("facades", facades.facades);
+    contents_.cellStart = uploadArray<uint>("facade cell starts", facades.cellStart);
+    contents_.cellWindow = uploadArray<uint>("facade cell windows", facades.cellWindow);
+    contents_.triangleFacade = uploadArray<uint>("facades of triangles", facades.triangleFacade);
+    contents_.looseWindows = uploadArray<uint>("loose windows", facades.looseWindows);
+    contents_.groundMaterial = scene.ground ? scene.ground->material : kNone;
+    contents_.groundHeight = scene.ground ? scene.ground->height : 0;
+}
+
+void GpuScene::buildTriangles(const FlatScene& scene) {
+    triangles_ = {};
+    if (scene.triangles.empty()) {
+        return;
+    }
+    const std::vector<std::uint32_t> indices = triangleIndices(scene);
+    gpu::Buffer indexBuffer(device_, "triangle indices", indices.size() * 4,
+                            gpu::MemoryKind::device, kBuildInput);
+    commands_.upload(indexBuffer, indices.data(), indices.size() * 4);
+    gpu::TriangleGeometry geometry;
+    geometry.positions = contents_.positions.x | VkDeviceAddress{contents_.positions.y} << 32;
+    geometry.vertexCount = static_cast<std::uint32_t>(scene.positions.size());
+    geometry.indices = indexBuffer.address();
+    geometry.triangleCount = static_cast<std::uint32_t>(scene.triangles.size());
+    triangles_ = {device_, commands_, "building triangles", geometry};
+}
+
+void GpuScene::buildMedia(const FlatScene& scene) {
+    media_ = {};
+    if (scene.mediaBoxes.empty()) {
+        return;
+    }
+    std::vector<VkAabbPositionsKHR> boxes;
+    for (const MediaBox& box : scene.mediaBoxes) {
+        boxes.push_back(inflated(box.lo, box.hi));
+    }
+    gpu::Buffer buffer(device_, "media bounds", boxes.size() * sizeof(VkAabbPositionsKHR),
+                       gpu::MemoryKind::device, kBuildInput);
+    commands_.upload(buffer, boxes.data(), boxes.size() * sizeof(VkAabbPositionsKHR));
+    media_ = {device_, commands_, "media boxes",
+              gpu::BoxGeometry{buffer.address(), static_cast<std::uint32_t>(boxes.size())}};
+}
+
+void GpuScene::buildLoosePanes(const FlatScene& scene) {
+    loosePanes_ = {};
+    if (looseWindows_.empty()) {
+        return;
+    }
+    std::vector<VkAabbPositionsKHR> boxes;
+    for (std::uint32_t index : looseWindows_) {
+        const Window& window = scene.windows[index];
+        const glm::vec3 half = halfExtent(window);
+        boxes.push_back(inflated(window.centre - half, window.centre + half));
+    }
+    gpu::Buffer buffer(device_, "pane bounds", boxes.size() * sizeof(VkAabbPositionsKHR),
+                       gpu::MemoryKind::device, kBuildInput);
+    commands_.upload(buffer, boxes.data(), boxes.size() * sizeof(VkAabbPositionsKHR));
+    loosePanes_ = {device_, commands_, "loose panes",
+                   gpu::BoxGeometry{buffer.address(), static_cast<std::uint32_t>(boxes.size())}};
+}
+
+void GpuScene::buildTopLevel() {
+    std::vector<gpu::StructureInstance> instances;
+    contents_.surfaceMask = 0;
+    contents_.mediaMask = 0;
+    if (triangles_) {
+        instances.push_back({&triangles_, kMaskTriangles});
+        contents_.surfaceMask |= kMaskTriangles;
+    }
+    if (media_) {
+        instances.push_back({&media_, kMaskMedia});
+        contents_.mediaMask = kMaskMedia;
+    }
+    if (loosePanes_) {
+        instances.push_back({&loosePanes_, kMaskLoosePanes});
+        contents_.surfaceMask |= kMaskLoosePanes;
+    }
+    topLevel_ = {device_, commands_, "scene", std::span<const gpu::StructureInstance>(instances)};
+}
+
+void GpuScene::syncWindowState(const FlatScene& scene, int frame,
+                               const RenderSettings& settings) {
+    const std::vector<std::uint8_t> on = scene.windowsOn(frame);
+    const std::vector<std::uint32_t> bits = stateBits(on);
+    const PackedLights lights = packLights(scene, on, settings.lightCap);
+    chooseStorage(lights, settings.lightStorage);
+
+    const auto fill = [this](gpu::Buffer& buffer, const char* name, const void* data,
+                             std::uint64_t bytes, std::uint64_t room) {
+        if (!buffer || buffer.bytes() < room) {
+            buffer = {};
+            buffer = gpu::Buffer(device_, name, room, gpu::MemoryKind::device,
+                                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+        }
+        commands_.upload(buffer, data, bytes);
+        return addressWords(buffer.address());
+    };
+    contents_.windowOn = fill(windowOn_, "window state", bits.data(), bits.size() * 4,
+                              bits.size() * 4);
+    contents_.marchMedia =
+        fill(marchMedia_, "march media", lights.media.data(),
+             lights.media.size() * sizeof(MarchMedium), lights.media.size() * sizeof(MarchMedium));
+    const std::uint64_t pages =
+        std::max<std::uint64_t>(1, (lights.capacity * 16 + pageBytes() - 1) / pageBytes());
+    contents_.lightEntries = fill(lightEntries_, "light lists", lights.entries.data(),
+                                  lights.entries.size() * 16, pages * pageBytes());
+    contents_.colour = lights.colour;
+    writeTable();
+}
+
+void GpuScene::chooseStorage(const PackedLights& lights, LightStorage wanted) {
+    const gpu::DeviceLimits& limits = device_.limits();
+    notes_.clear();
+    choice_.storage = wanted;
+    choice_.oneColour = lights.oneColour;
+    choice_.pageEntries =
+        std::bit_floor(std::min(kLargestPageBytes, limits.uniformBufferRange)) / 16;
+    choice_.pageCount = 1;
+    if (wanted == LightStorage::storage) {
+        return;
+    }
+    const std::uint64_t pages = std::max<std::uint64_t>(
+        1, (lights.capacity + choice_.pageEntries - 1) / choice_.pageEntries);
+    const std::uint64_t most = std::min({limits.uniformBuffersPerStage,
+                                         limits.uniformBuffersPerSet, limits.resourcesPerStage});
+    if (pages > most) {
+        choice_.storage = LightStorage::storage;
+        notes_.push_back("the light lists need " + std::to_string(pages) +
+                         " pages of uniform buffers, but " + device_.name() + " binds at most " +
+                         std::to_string(most) + ": they are read from a storage buffer instead");
+        return;
+    }
+    choice_.pageCount = static_cast<std::uint32_t>(pages);
+}
+
+void GpuScene::writeTable() {
+    if (!table_) {
+        table_ = gpu::Buffer(device_, "scene table", sizeof(SceneTable), gpu::MemoryKind::device);
+    }
+    commands_.upload(table_, &contents_, sizeof(SceneTable));
+}
+
+}  // namespace nightcity

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/pass_pipelines.h"
+
+#include "accumulate_spirv.h"
+#include "dispatch.h"
+#include "march_spirv.h"
+#include "surface_spirv.h"
+#include "traverse_spirv.h"
+
+namespace nightcity {
+namespace {
+
+const gpu::Binding kStructure{NIGHTCITY_BINDING_STRUCTURE,
+                              VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1};
+
+gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
+                                  std::span<const std::uint32_t> spirv,
+                                  std::vector<gpu::Binding> bindings,
+                                  std::vector<std::uint32_t> constants = {}) {
+    gpu::ComputePipelineInfo info;
+    info.name = name;
+    info.spirv = spirv;
+    info.bindings = std::move(bindings);
+    info.pushConstantBytes = sizeof(PushConstants);
+    info.constants = std::move(constants);
+    return {device, info};
+}
+
+std::vector<std::uint32_t> marchConstants(const PipelineChoice& choice) {
+    std::vector<std::uint32_t> constants(5);
+    constants[NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE] = choice.order == MarchOrder::lights ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_UNIFORM_PAGES] =
+        choice.lights.storage == LightStorage::uniform ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_PAGE_COUNT] = choice.lights.pageCount;
+    constants[NIGHTCITY_CONSTANT_PAGE_ENTRIES] = choice.lights.pageEntries;
+    constants[NIGHTCITY_CONSTANT_ONE_COLOUR] = choice.lights.oneColour ? 1 : 0;
+    return constants;
+}
+
+}  // namespace
+
+PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings)
+    : choice(settings) {
+    surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructure});
+    traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
+    march = makePipeline(device, "march", kMarchSpirv,
+                         {{NIGHTCITY_BINDING_LIGHT_PAGES, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                           choice.lights.pageCount}},
+                         marchConstants(choice));
+    accumulate = makePipeline(device, "accumulate", kAccumulateSpirv, {},
+                              {choice.media ? 1u : 0u});
+}
+
+void PassPipelines::bind(const GpuScene& scene) {
+    surface.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
+    traverse.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
+    march.bindUniformBuffers(NIGHTCITY_BINDING_LIGHT_PAGES, scene.lightEntries(),
+                             scene.pageBytes(), choice.lights.pageCount);
+}
+
+}  // namespace nightcity

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All that the passes ask of the scene's geometry, and the only place that
+// knows ray queries: a device without them is served by another such file.
+#ifndef NIGHTCITY_SHADERS_INTERSECT_GLSL
+#define NIGHTCITY_SHADERS_INTERSECT_GLSL
+
+#extension GL_EXT_ray_query : require
+
+#include "box_interval.glsl"
+#include "camera_ray.glsl"
+#include "pane.glsl"
+
+layout(set = 0, binding = NIGHTCITY_BINDING_STRUCTURE) uniform accelerationStructureEXT structure;
+
+const float kFar = 1e10;  // m, beyond every surface; frame.h's kSkyDepth
+
+struct TriangleHit {
+    float depth;        // the end asked for, for none
+    uint triangle;      // or kNone
+    vec2 barycentrics;  // of the second and third corner
+};
+
+// The nearest triangle on [0, end) of a ray.
+TriangleHit nearestTriangle(Ray ray, float end) {
+    TriangleHit hit = TriangleHit(end, kNone, vec2(0.0));
+    if ((sceneTable.surfaceMask & kMaskTriangles) == 0u) {
+        return hit;
+    }
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, structure, gl_RayFlagsOpaqueEXT, kMaskTriangles, ray.origin, 0.0,
+                          ray.direction, end);
+    while (rayQueryProceedEXT(query)) {
+    }
+    if (rayQueryGetIntersectionTypeEXT(query, true) ==
+        gl_RayQueryCommittedIntersectionTriangleEXT) {
+        hit.depth = rayQueryGetIntersectionTEXT(query, true);
+        hit.triangle = rayQueryGetIntersectionPrimitiveIndexEXT(query, true);
+        hit.barycentrics = rayQueryGetIntersectionBarycentricsEXT(query, true);
+    }
+    return hit;
+}
+
+struct PaneHit {
+    float depth;
+    uint window;  // into Window, or kNone
+};
+
+// The nearest pane that stands on no facade and that the surface at depth `wall` does not hide.
+PaneHit nearestLoosePane(Ray ray, float wall) {
+    PaneHit hit = PaneHit(kFar, kNone);
+    if ((sceneTable.surfaceMask & kMaskLoosePanes) == 0u) {
+        return hit;
+    }
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, structure, gl_RayFlagsNoneEXT, kMaskLoosePanes, ray.origin, 0.0,
+                          ray.direction, kFar);
+    while (rayQueryProceedEXT(query)) {
+        uint primitive = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
+        uint index = UintArray(sceneTable.looseWindows).at[primitive];
+        Window window = WindowArray(sceneTable.windows).at[index];
+        float depth = paneDepth(ray, window);
+        if (depth > 0.0 && depth < hit.depth && !hiddenBy(wall, ray, window, depth)) {
+            hit = PaneHit(depth, index);
+        }
+    }
+    return hit;
+}
+
+// Entry, exit and index of the media boxes on a ray, by (entry, index).
+struct MediaHits {
+    float entry[kSegmentSlots];
+    float exit[kSegmentSlots];
+    uint box[kSegmentSlots];
+    uint count;  // of all that lie after the pair asked for, also those without a slot
+};
+
+bool before(float entryA, uint boxA, float entryB, uint boxB) {
+    return entryA < entryB || (entryA == entryB && boxA < boxB);
+}
+
+// Sorts one box in. Every slot is touched with a constant index, so that the
+// list stays in registers.
+void insertMedium(inout MediaHits hits, float entry, float exit, uint box) {
+    for (uint slot = 0; slot < kSegmentSlots; ++slot) {
+        bool swap = before(entry, box, hits.entry[slot], hits.box[slot]);
+        float laterEntry = swap ? hits.entry[slot] : entry;
+        float laterExit = swap ? hits.exit[slot] : exit;
+        uint laterBox = swap ? hits.box[slot] : box;
+        hits.entry[slot] = swap ? entry : hits.entry[slot];
+        hits.exit[slot] = swap ? exit : hits.exit[slot];
+        hits.box[slot] = swap ? box : hits.box[slot];
+        entry = laterEntry;
+        exit = laterExit;
+        box = laterBox;
+    }
+    ++hits.count;
+}
+
+// The first media boxes on [0, end) of a ray that come after (lastEntry,
+// lastBox) in the order of entry and index; in the first round lastEntry is
+// negative. The structure's boxes are inflated: it only proposes.
+MediaHits mediaAlong(Ray ray, float end, float lastEntry, uint lastBox) {
+    MediaHits hits;
+    for (uint slot = 0; slot < kSegmentSlots; ++slot) {
+        hits.entry[slot] = kFar;
+        hits.exit[slot] = kFar;
+        hits.box[slot] = kNone;
+    }
+    hits.count = 0;
+    vec3 inverse = reciprocal(ray.direction);
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, structure, gl_RayFlagsNoneEXT, kMaskMedia, ray.origin,
+                          max(lastEntry, 0.0), ray.direction, end);
+    while (rayQueryProceedEXT(query)) {
+        uint box = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
+        vec3 lo = MediaBoxArray(sceneTable.mediaBoxes).at[box].lo;
+        vec3 hi = MediaBoxArray(sceneTable.mediaBoxes).at[box].hi;
+        float entry, exit;
+        boxInterval(ray.origin, ray.direction, inverse, lo, hi, end, entry, exit);
+        if (entry < exit && before(lastEntry, lastBox, entry, box)) {
+            insertMedium(hits, entry, exit, box);
+        }
+    }
+    return hits;
+}
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the host and the passes agree on: group size, bindings, specialization
+// constants, the tables of addresses, and the records that one pass hands to
+// the next. An address is a uvec2: low word, high word.
+#ifndef NIGHTCITY_SHADERS_DISPATCH_H
+#define NIGHTCITY_SHADERS_DISPATCH_H
+
+#include "scene.h"
+
+NIGHTCITY_BEGIN
+
+NIGHTCITY_CONST uint kGroupSize = 256;   // threads of every pass; one thread a ray
+NIGHTCITY_CONST uint kSegmentSlots = 8;  // segments a ray that one traversal hands on
+
+// Bindings of set 0.
+#define NIGHTCITY_BINDING_STRUCTURE 0
+#define NIGHTCITY_BINDING_LIGHT_PAGES 1
+
+// Instances of the top-level structure, by what their primitives are.
+NIGHTCITY_CONST uint kMaskTriangles = 1u;    // opaque triangles
+NIGHTCITY_CONST uint kMaskMedia = 2u;        // media boxes
+NIGHTCITY_CONST uint kMaskLoosePanes = 4u;   // emitters that stand on no facade
+
+// Specialization constants of march.comp.
+#define NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE 0  // 1: light loop outside the steps
+#define NIGHTCITY_CONSTANT_UNIFORM_PAGES 1   // 1: pages of uniform buffers, 0: storage
+#define NIGHTCITY_CONSTANT_PAGE_COUNT 2
+#define NIGHTCITY_CONSTANT_PAGE_ENTRIES 3    // vec4 a page, a power of two
+#define NIGHTCITY_CONSTANT_ONE_COLOUR 4      // 1: every lit window has the same colour
+// Specialization constant of accumulate.comp.
+#define NIGHTCITY_CONSTANT_MEDIA 0           // 0: surface frame
+
+// A media box as the march reads it. Its lights are entries firstLight up to
+// firstLight + lightCount of the packed light lists.
+struct MarchMedium {
+    float extinction;  // 1/m
+    float scattering;  // 1/m, extinction x albedo
+    uint firstLight;
+    uint lightCount;
+};
+
+// Packed light lists: one or two vec4 an entry.
+//   one colour:   xyz centre relative to the lower corner of the box (m), w power (W)
+//   many colours: xyz as above, w 0; then rgb power x colour (W)
+
+struct SceneTable {
+    uvec2 positions;       // vec3
+    uvec2 texcoords;       // vec2; 0 where there are none
+    uvec2 triangles;       // Triangle
+    uvec2 materials;       // Material
+    uvec2 texels;          // uint
+    uvec2 windows;         // Window
+    uvec2 windowOn;        // uint, bit i & 31 of word i >> 5
+    uvec2 mediaBoxes;      // MediaBox
+    uvec2 marchMedia;      // MarchMedium, one a media box
+    uvec2 lightEntries;    // vec4, packed light lists
+    uvec2 facades;         // Facade
+    uvec2 cellStart;       // uint
+    uvec2 cellWindow;      // uint
+    uvec2 triangleFacade;  // uint, one a triangle
+    uvec2 looseWindows;    // uint into Window, one a primitive of the loose panes
+    float groundHeight;    // m
+    uint groundMaterial;   // into Material, or kNone without a ground
+    uint surfaceMask;      // kMaskTriangles and kMaskLoosePanes, where there are any
+    uint mediaMask;        // kMaskMedia, where there is any
+    vec3 colour;           // of every lit window, where they share one
+};
+
+struct FrameTable {
+    uvec2 pixels;       // uvec2 each, or 0: all pixels, row by row
+    uvec2 samples;      // vec2, offsets from the pixel centre
+    uvec2 surfaces;     // SurfaceRecord, one a ray of the band
+    uvec2 progress;     // RayProgress, one a ray of the band
+    uvec2 segments;     // Segment, slot s of ray r at s * bandRays + r
+    uvec2 counters;     // PassCounters
+    uvec2 beauty;       // vec4, and so on: one a pixel of the band
+    uvec2 glow;         // vec3
+    uvec2 surface;      // vec3
+    uvec2 transmittance;
+    uvec2 depth;
+    uvec2 normal;       // vec3
+    uvec2 mediaId;
+    uvec2 materialId;
+    uint width;         // pixels
+    uint height;
+    uint bandRays;      // capacity
+    uint subdivisions;  // steps a segment
+    uint sampleCount;
+    uint centreSample;  // whose depth, normal and ids are kept
+    CameraFrame camera;
+    vec3 positionLow;   // m, added to camera.position: what float lost of it
+};
+
+struct PushConstants {
+    uvec2 scene;       // SceneTable
+    uvec2 frame;       // FrameTable
+    uint firstPixel;   // of the band, in the order of the frame or the pixel list
+    uint pixelCount;   // of the band
+    uint sampleIndex;
+    uint round;        // of the traversal, from 0
+};
+
+// The nearest opaque surface on a ray, as surface.comp leaves it.
+struct SurfaceRecord {
+    vec3 radiance;  // W m^-2 sr^-1, towards the camera
+    float depth;    // m along the camera's axis, kSkyDepth for none
+    vec3 normal;    // towards the camera; 0 for sky
+    int material;   // -1 for sky and panes
+};
+
+// How far traversal and march have come along a ray.
+struct RayProgress {
+    float lastEntry;   // depth where the last segment found begins
+    uint lastBox;      // and its media box: the next round goes on after this pair
+    uint segments;     // of this round, at most kSegmentSlots
+    int firstMediaId;  // of the first box on the ray, -1 for none
+    vec3 glow;         // W m^-2 sr^-1, so far
+    float opticalDepth;
+};
+
+// The part of a ray inside one media box.
+struct Segment {
+    vec3 start;  // m, relative to the lower corner of the box
+    uint box;    // into MediaBox
+    vec3 span;   // m, from start to the end
+};
+
+struct PassCounters {
+    uint unfinished;         // rays with more segments than slots
+    uint lightSegmentsLow;   // sum over the segments of the lights of their box
+    uint lightSegmentsHigh;  // the same, upper 32 bits
+};
+
+NIGHTCITY_END
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a surface sends to the camera: a tenth of its colour (the paper shows
+// surfaces dimmed), or the light of a window.
+#ifndef NIGHTCITY_SHADERS_SURFACE_SHADING_GLSL
+#define NIGHTCITY_SHADERS_SURFACE_SHADING_GLSL
+
+#include "intersect.glsl"
+
+const float kDim = 0.1;  // W m^-2 sr^-1 at reflectance 1
+
+float linearFromSrgb(float encoded) {  // IEC 61966-2-1
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+vec3 texelAt(Material material, ivec2 texel) {
+    ivec2 size = ivec2(material.width, material.height);
+    texel -= size * ivec2(floor(vec2(texel) / vec2(size)));  // the texture repeats
+    texel = clamp(texel, ivec2(0), size - 1);
+    uint packedColour = UintArray(sceneTable.texels)
+                            .at[material.firstTexel + uint(texel.y) * material.width + uint(texel.x)];
+    vec3 encoded = unpackUnorm4x8(packedColour).rgb;
+    return vec3(linearFromSrgb(encoded.r), linearFromSrgb(encoded.g), linearFromSrgb(encoded.b));
+}
+
+// Bilinear, in linear light; texel centres at half integers.
+vec3 textureColour(Material material, vec2 texcoord) {
+    vec2 position = fract(texcoord) * vec2(material.width, material.height) - 0.5;
+    vec2 corner = floor(position);
+    vec2 weight = position - corner;
+    ivec2 texel = ivec2(corner);
+    vec3 lower = mix(texelAt(material, texel), texelAt(material, texel + ivec2(1, 0)), weight.x);
+    vec3 upper = mix(texelAt(material, texel + ivec2(0, 1)),
+                     texelAt(material, texel + ivec2(1, 1)), weight.x);
+    return mix(lower, upper, weight.y);
+}
+
+vec3 towardsCamera(vec3 normal, vec3 direction) {
+    return dot(normal, direction) > 0.0 ? -normal : normal;
+}
+
+vec3 dimRadiance(uint index, vec2 texcoord) {
+    Material material = MaterialArray(sceneTable.materials).at[index];
+    vec3 colour = material.reflectance;
+    if (material.firstTexel != kNone && sceneTable.texcoords != uvec2(0)) {
+        colour *= textureColour(material, texcoord);
+    }
+    return kDim * colour;
+}
+
+vec2 texcoordAt(Triangle triangle, vec2 barycentrics) {
+    if (sceneTable.texcoords == uvec2(0)) {
+        return vec2(0.0);
+    }
+    Vec2Array texcoords = Vec2Array(sceneTable.texcoords);
+    return texcoords.at[triangle.vertex.x] * (1.0 - barycentrics.x - barycentrics.y) +
+           texcoords.at[triangle.vertex.y] * barycentrics.x +
+           texcoords.at[triangle.vertex.z] * barycentrics.y;
+}
+
+// The nearest pane of a facade on the ray. The cell is that of the facade's own plane; the
+// panes of its list may stand some millimetres off it, and each is met in its own.
+PaneHit facadePane(Ray ray, uint index) {
+    PaneHit hit = PaneHit(kFar, kNone);
+    Facade facade = FacadeArray(sceneTable.facades).at[index];
+    vec3 normal = cross(facade.uAxis, facade.vAxis);
+    float towards = dot(ray.direction, normal);
+    if (towards >= 0.0) {  // the back of the wall
+        return hit;
+    }
+    float depth = dot(facade.origin - ray.origin, normal) / towards;
+    vec3 fromOrigin = (ray.origin - facade.origin) + depth * ray.direction;
+    vec2 cell = floor(vec2(dot(fromOrigin, facade.uAxis), dot(fromOrigin, facade.vAxis)) /
+                      facade.cellSize);
+    if (any(lessThan(cell, vec2(0.0))) ||
+        any(greaterThanEqual(cell, vec2(facade.columns, facade.rows)))) {
+        return hit;
+    }
+    uint entry = facade.firstCell + uint(cell.y) * facade.columns + uint(cell.x);
+    uint end = UintArray(sceneTable.cellStart).at[entry + 1];
+    for (uint i = UintArray(sceneTable.cellStart).at[entry]; i < end; ++i) {
+        uint window = UintArray(sceneTable.cellWindow).at[i];
+        float paneAt = paneDepth(ray, WindowArray(sceneTable.windows).at[window]);
+        if (paneAt > 0.0 && paneAt < hit.depth) {
+            hit = PaneHit(paneAt, window);
+        }
+    }
+    return hit;
+}
+
+SurfaceRecord shadePane(Ray ray, PaneHit hit) {
+    Window window = WindowArray(sceneTable.windows).at[hit.window];
+    return SurfaceRecord(paneRadiance(hit.window, window, ray.direction), hit.depth,
+                         towardsCamera(paneNormal(window), ray.direction), -1);
+}
+
+// The wall, or the pane of its facade in front of it.
+SurfaceRecord shadeTriangle(Ray ray, TriangleHit hit) {
+    uint facade = UintArray(sceneTable.triangleFacade).at[hit.triangle];
+    if (facade != kNone) {
+        PaneHit pane = facadePane(ray, facade);
+        if (pane.window != kNone) {
+            return shadePane(ray, pane);
+        }
+    }
+    Triangle triangle = TriangleArray(sceneTable.triangles).at[hit.triangle];
+    Vec3Array positions = Vec3Array(sceneTable.positions);
+    vec3 corner = positions.at[triangle.vertex.x];
+    vec3 normal = normalize(cross(positions.at[triangle.vertex.y] - corner,
+                                  positions.at[triangle.vertex.z] - corner));
+    return SurfaceRecord(dimRadiance(triangle.material, texcoordAt(triangle, hit.barycentrics)),
+                         hit.depth, towardsCamera(normal, ray.direction),
+                         int(triangle.material));
+}
+
+// Where the ray meets the ground plane, or kFar. The expression is that of
+// boxInterval, so that a media box that stands on the ground ends there to the bit.
+float groundDepth(Ray ray) {
+    if (sceneTable.groundMaterial == kNone || abs(ray.direction.z) < kSmallestDirection) {
+        return kFar;
+    }
+    precise float depth =
+        (sceneTable.groundHeight - ray.origin.z) * reciprocal(ray.direction).z;
+    return depth > 0.0 ? min(depth, kFar) : kFar;
+}
+
+SurfaceRecord shadeGround(Ray ray, float depth) {
+    vec3 up = vec3(0.0, 0.0, 1.0);
+    Material material = MaterialArray(sceneTable.materials).at[sceneTable.groundMaterial];
+    return SurfaceRecord(kDim * material.reflectance, depth, towardsCamera(up, ray.direction),
+                         int(sceneTable.groundMaterial));
+}
+
+#endif
