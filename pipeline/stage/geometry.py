@@ -15,7 +15,7 @@ from nightcity.stage.bounds import city_bounds
 from nightcity.stage.materials import write_material
 
 _GROUND_MARGIN = 10.0  # the ground shown to viewers reaches this many city radii out
-_GROUND_LEAST = 1000.0  # m, and at least so far
+_GROUND_LEAST = 5000.0  # m, and at least so far: close to the horizon
 
 
 def write_geometry(city: City, layer: Sdf.Layer, texture_folder: str) -> None:

@@ -14,17 +14,17 @@ from nightcity.light_lists import light_lists, window_bounds
 from nightcity.stage.contents import Contents
 from nightcity.stage.finding import Finding, error, warning
 from nightcity.stage.validate_windows import window_ids
+from nightcity.stage.values import EARLIEST, numbers
 
 _MOST_OVERLAPS = 50  # named; more than that have one cause
 _SKEW = 1e-6  # of a box's edge: what float32 transforms leave of an exact quarter turn
-_TIME = Usd.TimeCode.EarliestTime()
 
 
 def check_media(contents: Contents) -> Iterator[Finding]:
     """Boxes on their own, against one another, and against the windows."""
     yield from _check_numbers(contents.media)
     boxes: list[tuple[Usd.Prim, np.ndarray]] = []
-    transforms = UsdGeom.XformCache(_TIME)
+    transforms = UsdGeom.XformCache(EARLIEST)
     for prim in contents.media:
         corners, wrong = _corners(prim, transforms)
         if wrong:
@@ -58,12 +58,11 @@ def _check_numbers(media: list[Usd.Prim]) -> Iterator[Finding]:
 def _corners(prim: Usd.Prim, transforms: UsdGeom.XformCache) -> tuple[np.ndarray, Finding | None]:
     """Lower and upper corner, (2, 3) in stage units, and what is wrong with the box."""
     matrix = np.array(transforms.GetLocalToWorldTransform(prim))
-    size = float(prim.GetAttribute("size").Get(_TIME))
-    edges = size * matrix[:3, :3]
+    size = numbers(prim, "size")
     nothing = np.zeros((2, 3))
-    if not (np.isfinite(matrix).all() and np.isfinite(size)):
+    if not (np.isfinite(matrix).all() and size.ndim == 0 and np.isfinite(size)):
         return nothing, error(prim, "xformOpOrder", "its transform or size is not finite; mend it")
-    lengths = np.abs(edges)
+    lengths = np.abs(size * matrix[:3, :3])
     if (lengths.max(axis=1) == 0).any() or (lengths.max(axis=0) == 0).any():
         return nothing, error(prim, "size", "the box is flat; give it a size and scale above 0")
     along = lengths.argmax(axis=1)
@@ -101,33 +100,40 @@ def _check_overlaps(boxes: list[tuple[Usd.Prim, np.ndarray]]) -> Iterator[Findin
 
 def _check_lists(contents: Contents, boxes: list[tuple[Usd.Prim, np.ndarray]]) -> Iterator[Finding]:
     ids = np.concatenate([*map(window_ids, contents.windows), np.empty(0, np.int64)])
-    known = np.unique(ids)
-    lists = {}
-    for prim in contents.media:
-        listed = np.array(prim.GetAttribute("nightcity:windowLights").Get() or [], np.int64)
-        lists[prim.GetPath()] = listed
-        strange = listed[~np.isin(listed, known)]
-        if len(strange):
+    lists = [numbers(prim, "nightcity:windowLights", dtype=np.int64) for prim in contents.media]
+    owner = np.repeat(np.arange(len(lists)), [each.size for each in lists])
+    listed = np.concatenate([*lists, np.empty(0, np.int64)])
+    strange = np.bincount(owner[~np.isin(listed, ids)], minlength=len(lists))
+    falls = (np.diff(listed) <= 0) & (np.diff(owner) == 0)
+    unsorted = np.bincount(owner[1:][falls], minlength=len(lists))
+    for index, prim in enumerate(contents.media):
+        if strange[index]:
+            first = lists[index][~np.isin(lists[index], ids)][0]
             yield error(
                 prim,
                 "nightcity:windowLights",
-                f"lists window {strange[0]}, which is in no instancer's ids"
-                f" ({len(strange)} of {len(listed)} are not); correct the list, or clear it and"
-                " let the export compute it",
+                f"lists window {first}, which is in no instancer's ids ({strange[index]} of"
+                f" {len(lists[index])} are not); correct the list, or clear it and let the export"
+                " compute it",
             )
-        elif (np.diff(listed) <= 0).any():
+        elif unsorted[index]:
             yield warning(prim, "nightcity:windowLights", "is not ascending; sort it")
-        for target in prim.GetRelationship("nightcity:windowLightSources").GetForwardedTargets():
-            source = contents.stage.GetPrimAtPath(target)
-            if not source or "NightcityWindowsAPI" not in source.GetAppliedSchemas():
-                yield warning(
-                    prim,
-                    "nightcity:windowLightSources",
-                    f"{target} is no instancer of windows; remove it",
-                )
-                break
-    if len(known) == len(ids):
-        yield from _check_stale(contents, boxes, ids, lists)
+        yield from _check_sources(prim)
+    if len(np.unique(ids)) == len(ids):
+        by_path = {prim.GetPath(): each for prim, each in zip(contents.media, lists, strict=True)}
+        yield from _check_stale(contents, boxes, ids, by_path)
+
+
+def _check_sources(prim: Usd.Prim) -> Iterator[Finding]:
+    for target in prim.GetRelationship("nightcity:windowLightSources").GetForwardedTargets():
+        source = prim.GetStage().GetPrimAtPath(target)
+        if not source or "NightcityWindowsAPI" not in source.GetAppliedSchemas():
+            yield warning(
+                prim,
+                "nightcity:windowLightSources",
+                f"{target} is no instancer of windows; remove it",
+            )
+            return
 
 
 def _check_stale(
@@ -138,7 +144,8 @@ def _check_stale(
     if bounds is None or len(bounds[0]) != len(ids) or not boxes or not np.isfinite(bounds).all():
         return
     corners = np.array([corners for _, corners in boxes])
-    reach = np.array([prim.GetAttribute("nightcity:reachScale").Get() for prim, _ in boxes], float)
+    scales = [numbers(prim, "nightcity:reachScale") for prim, _ in boxes]
+    reach = np.array([scale if scale.ndim == 0 else np.nan for scale in scales])
     if not (np.isfinite(reach) & (reach > 0)).all():
         return  # reported with the ranges
     offsets, found = light_lists(*bounds, corners[:, 0], corners[:, 1], reach)
@@ -160,17 +167,19 @@ def _check_stale(
 
 def _all_window_bounds(contents: Contents) -> tuple[np.ndarray, np.ndarray] | None:
     """Lower and upper corners of every window, (N, 3) m each; None where they have none."""
-    transforms = UsdGeom.XformCache(_TIME)
+    transforms = UsdGeom.XformCache(EARLIEST)
     lower, upper = [], []
     for prim in contents.windows:
         instancer = UsdGeom.PointInstancer(prim)
         local = instancer.ComputeInstanceTransformsAtTime(
-            _TIME, _TIME, instancer.IncludeProtoXform, instancer.IgnoreMask
+            EARLIEST, EARLIEST, instancer.IncludeProtoXform, instancer.IgnoreMask
         )
         if not local:
             return None
         world = np.array(local) @ np.array(transforms.GetLocalToWorldTransform(prim))
-        half = 0.5 * np.array(prim.GetAttribute("nightcity:windowSize").Get(), float)
+        half = 0.5 * numbers(prim, "nightcity:windowSize")
+        if half.shape != (2,):
+            return None  # of a wrong type: USD's own validators name it
         bounds = window_bounds(
             world[:, 3, :3], half[0] * world[:, 0, :3], half[1] * world[:, 1, :3]
         )
