@@ -15,11 +15,11 @@
 namespace nightcity {
 
 // Which physics (the model). Enumerators are added as the renderer learns them.
-enum class Lights { listed };
-enum class Visibility { none };
-enum class Emitter { isotropic };
+enum class Lights { listed, all };
+enum class Visibility { none, full };
+enum class Emitter { isotropic, lambertian, pane };
 enum class Scattering { single };
-enum class Surfaces { dim };
+enum class Surfaces { dim, lit };
 
 // How its integral is computed.
 enum class Method {

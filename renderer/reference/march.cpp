@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "reference/lit_lists.h"
+
 namespace nightcity {
 
 namespace {
@@ -13,23 +15,6 @@ namespace {
 // Below a micrometre from a window the inverse square is cut off: against a division
 // by zero, not against brightness. m^2.
 constexpr double kSmallestDistanceSquared = 1e-12;
-
-std::vector<std::vector<std::uint32_t>> litWindows(const FlatScene& scene, int frame,
-                                                   const RenderSettings& settings) {
-    const std::vector<std::uint8_t> on = scene.windowsOn(frame);
-    std::vector<std::vector<std::uint32_t>> lit(scene.mediaBoxes.size());
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-        const MediaBox& box = scene.mediaBoxes[i];
-        for (const std::uint32_t window :
-             scene.lightList.subspan(box.firstLight, box.lightCount)) {
-            const bool room = !settings.lightCap || lit[i].size() < *settings.lightCap;
-            if (on[window] && room) {
-                lit[i].push_back(window);
-            }
-        }
-    }
-    return lit;
-}
 
 }  // namespace
 
@@ -39,7 +24,7 @@ March::March(const FlatScene& scene, int frame, const RenderSettings& settings)
       media_(settings.media),
       surfaces_(scene, frame),
       segments_(scene),
-      litWindows_(litWindows(scene, frame, settings)) {}
+      litWindows_(litLists(scene, frame, settings.lightCap)) {}
 
 // Radiance scattered towards the eye, per metre: sigma_s / (4 pi) times the fluence
 // of isotropic windows, P / (4 pi d^2) each, attenuated by the point's own box.

@@ -10,25 +10,17 @@
 
 #include "reference/media_segments.h"
 #include "reference/opaque_surfaces.h"
+#include "reference/ray_integrator.h"
 #include "settings.h"
 
 namespace nightcity {
 
-// What one ray carries back. Radiance in W m^-2 sr^-1.
-struct RayResult {
-    glm::dvec3 glow{0};
-    double transmittance = 1;
-    SurfaceHit surface;    // its radiance is that at the surface, before the haze
-    float mediaId = -1;    // of the first media box on the ray
-    std::uint64_t lightEvaluations = 0;
-};
-
-class March {
+class March : public RayIntegrator {
 public:
     // The scene must outlive it.
     March(const FlatScene& scene, int frame, const RenderSettings& settings);
 
-    RayResult trace(const Ray& ray) const;
+    RayResult trace(const Ray& ray) const override;
 
 private:
     glm::dvec3 inScatter(const MediaBox& box, const std::vector<std::uint32_t>& lights,

@@ -63,15 +63,8 @@ public:
             visit);
     }
 
-private:
-    struct Node {
-        Bounds bounds;
-        std::uint32_t first = 0;   // leaf: into order_; else the left child, right child at + 1
-        std::uint32_t count = 0;   // 0: not a leaf
-    };
-
-    void split(std::uint32_t node, std::uint32_t first, std::uint32_t count);
-
+    // visit(index) for every box that enter(bounds) accepts, in no order. enter must
+    // accept whatever holds a box that it accepts.
     template <typename Enter, typename Visit>
     void visitWhere(Enter&& enter, Visit&& visit) const {
         std::vector<std::uint32_t> open;
@@ -96,6 +89,15 @@ private:
             }
         }
     }
+
+private:
+    struct Node {
+        Bounds bounds;
+        std::uint32_t first = 0;   // leaf: into order_; else the left child, right child at + 1
+        std::uint32_t count = 0;   // 0: not a leaf
+    };
+
+    void split(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 
     std::vector<Bounds> boxes_;
     std::vector<std::uint32_t> order_;
