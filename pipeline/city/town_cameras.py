@@ -25,13 +25,16 @@ _FOV = 60.0  # degrees, vertical, as the paper scenes' street camera
 _EYE_HEIGHT = 1.7  # m
 _EYE_STEP = 4.0  # m between places that are tried in a street
 _EYE_ROOM = 2.5  # m of free space around the eye
+_MOST_EYES = 800  # places whose views are compared, spread evenly
 _SECTORS = 32  # directions that are tried
 _STREET_REACH = 70.0  # m that a street view is judged by
+_STREET_WIDTH = 25.0  # m; walls farther than this do not make a street
 _NEAREST_SIGHT = 4.0  # m; a window that is closer fills the view and is no street
 _VIEW_HALF_ANGLE = np.radians(35.0)
 _PITCH = 0.1  # rise of the street view, m a metre
 _FINALISTS = 24  # views whose windows are counted by rays
 _CLOSE_DISTANCE = 2.0  # m in front of a window
+_CLOSE_ROOM = (6.0, _CLOSE_DISTANCE + 0.5)  # m of free space in front of it, in this order
 _CLOSE_REACH = 40.0  # m along a facade
 _BLOCK = 256  # eyes at a time
 
@@ -105,21 +108,22 @@ def _street(
     """A view along a street, from inside the medium, with as many lit windows as there are."""
     eyes = _eyes(media, lo, hi)
     eyes = eyes[~space.covered(eyes)]
-    open_distance = _open_distances(eyes, space)
-    roomy = open_distance.min(axis=1, initial=np.inf) >= _EYE_ROOM
-    eyes, open_distance = eyes[roomy], open_distance[roomy]
+    eyes = eyes[(_open_distances(eyes, space, 8, _EYE_ROOM) >= _EYE_ROOM).all(axis=1)]
+    eyes = eyes[:: len(eyes) // _MOST_EYES + 1]
     if len(eyes) == 0 or len(lit.wall) == 0:
         return None
-    scores = np.concatenate(list(_view_scores(eyes, open_distance, lit)))
+    open_distance = _open_distances(eyes, space, _SECTORS, _STREET_REACH)
+    # Among walls, not on the open ground before them.
+    enclosed = (open_distance < _STREET_WIDTH).mean(axis=1)
+    scores = np.concatenate(list(_view_scores(eyes, open_distance, lit))) * enclosed[:, None]
     order = np.argsort(-scores, axis=None, kind="stable")[:_FINALISTS]
     eye, sector = np.unravel_index(order, scores.shape)
-    seen = [_seen(eyes[e], _direction(s), lit, space) for e, s in zip(eye, sector, strict=True)]
-    reach = np.minimum(open_distance[eye, sector], _STREET_REACH)
-    best = int(np.argmax(np.array(seen) * reach))
+    views = _directions(_SECTORS)[sector]
+    seen = np.array([_seen(eyes[e], view, lit, space) for e, view in zip(eye, views, strict=True)])
+    best = int(np.argmax(seen * open_distance[eye, sector] * enclosed[eye]))
     if seen[best] == 0:
         return None
-    direction = _direction(sector[best]) + (0.0, 0.0, _PITCH)
-    return look_along("street", eyes[eye[best]], direction, _FOV)
+    return look_along("street", eyes[eye[best]], views[best] + (0.0, 0.0, _PITCH), _FOV)
 
 
 def _eyes(media: Sequence[MediaBox], lo: FloatArray, hi: FloatArray) -> FloatArray:
@@ -139,17 +143,17 @@ def _eyes(media: Sequence[MediaBox], lo: FloatArray, hi: FloatArray) -> FloatArr
     return np.column_stack((plan, np.full(len(plan), _EYE_HEIGHT)))
 
 
-def _direction(sector: int | np.ndarray) -> FloatArray:
-    """Horizontal unit vectors of sectors."""
-    angle = 2 * np.pi * np.asarray(sector) / _SECTORS
-    return np.stack((np.cos(angle), np.sin(angle), np.zeros_like(angle)), axis=-1)
+def _directions(count: int) -> FloatArray:
+    """(count, 3) horizontal unit vectors, all around."""
+    angle = 2 * np.pi * np.arange(count) / count
+    return np.column_stack((np.cos(angle), np.sin(angle), np.zeros(count)))
 
 
-def _open_distances(eyes: FloatArray, space: FreeSpace) -> FloatArray:
-    """(N, sectors) m to the first wall, at eye height; at most the reach of a street view."""
-    directions = np.tile(_direction(np.arange(_SECTORS)), (len(eyes), 1))
-    distance = space.distances(np.repeat(eyes, _SECTORS, axis=0), directions, _STREET_REACH)
-    return np.minimum(distance, _STREET_REACH).reshape(-1, _SECTORS)
+def _open_distances(eyes: FloatArray, space: FreeSpace, count: int, reach: float) -> FloatArray:
+    """(N, count) m to the first wall all around, at eye height; at most reach."""
+    directions = np.tile(_directions(count), (len(eyes), 1))
+    distance = space.distances(np.repeat(eyes, count, axis=0), directions, reach)
+    return np.minimum(distance, reach).reshape(-1, count)
 
 
 def _view_scores(eyes: FloatArray, open_distance: FloatArray, lit: _Lit) -> Iterator[FloatArray]:
@@ -189,23 +193,34 @@ def _seen(eye: FloatArray, direction: FloatArray, lit: _Lit, space: FreeSpace) -
 
 
 def _close(lit: _Lit, space: FreeSpace) -> Camera | None:
-    """2 m in front of a lit window, looking along its facade, where most lit windows follow."""
-    if len(lit.wall) == 0:
-        return None
+    """2 m in front of a lit window, looking along its facade, where lit windows follow."""
     eyes = lit.centres + _CLOSE_DISTANCE * lit.outward
-    free = np.isinf(space.distances(lit.centres, lit.outward, _CLOSE_DISTANCE + 0.5))
-    free &= ~space.covered(eyes)
-    best, camera = -1.0, None
+    outside = ~space.covered(eyes)
+    for room in _CLOSE_ROOM:
+        free = outside & np.isinf(space.distances(lit.centres, lit.outward, room))
+        views = [_along_facade(lit, eyes, side, free, space) for side in (1.0, -1.0)]
+        score, eye, direction = max(views, key=lambda view: view[0])
+        if score > 0:
+            return look_along("close", eye, direction, _FOV)
+    return None
+
+
+def _along_facade(
+    lit: _Lit, eyes: FloatArray, side: float, free: BoolArray, space: FreeSpace
+) -> tuple[float, FloatArray, FloatArray]:
+    """The best free eye that looks to one side: its score, the eye and the direction; score 0
+    where no eye is free. Lit windows of the wall count by how near they are, its own included."""
+    along = side * lit.across
+    ahead = space.distances(eyes, along, _CLOSE_REACH)
     order = np.argsort(lit.wall, kind="stable")
-    ends = np.searchsorted(lit.wall[order], lit.wall, side="right")
     starts = np.searchsorted(lit.wall[order], lit.wall, side="left")
-    for side in (1.0, -1.0):
-        ahead = space.distances(eyes, side * lit.across, _CLOSE_REACH)
-        for index in np.flatnonzero(free & (ahead > 2 * _CLOSE_DISTANCE)):
-            others = order[starts[index] : ends[index]]
-            along = (lit.centres[others] - lit.centres[index]) @ (side * lit.across[index])
-            score = float(((along > 0.1) & (along < ahead[index])).sum())
-            if score > best:
-                best = score
-                camera = look_along("close", eyes[index], side * lit.across[index], _FOV)
-    return camera
+    ends = np.searchsorted(lit.wall[order], lit.wall, side="right")
+    best = 0.0, np.zeros(3), np.zeros(3)
+    for index in np.flatnonzero(free & (ahead > 2 * _CLOSE_DISTANCE)):
+        others = lit.centres[order[starts[index] : ends[index]]] - lit.centres[index]
+        beside = others @ along[index]
+        shown = (beside > -0.1) & (beside < ahead[index])
+        score = float((1 / np.maximum(np.linalg.norm(others[shown], axis=1), 1.0)).sum())
+        if score > best[0]:
+            best = score, eyes[index], along[index]
+    return best

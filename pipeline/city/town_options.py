@@ -62,13 +62,13 @@ class TownOptions:
         ),
     )
     floor_height: float = number(3.0, 2, 20, "height of a floor, counted from the street", "m")
-    sill_height: float = number(0.9, 0, 10, "height of a window's lower edge above its floor", "m")
+    sill_height: float = number(0.75, 0, 10, "height of a window's lower edge above its floor", "m")
     window_spacing: float = number(2.4, 0.1, 100, "distance of window centres along a wall", "m")
     window_width: float = number(1.2, 0.05, 50, "width of a window", "m")
     window_height: float = number(1.5, 0.05, 50, "height of a window", "m")
     window_offset: float = number(0.01, 0.001, 0.5, "distance of windows from the wall", "m")
     window_margin: float = number(
-        0.25, 0, 10, "least distance of a window from the edges of its wall", "m"
+        0.15, 0, 10, "least distance of a window from the edges of its wall", "m"
     )
     window_clearance: float = number(
         1.0, 0, 50, "free space in front of a window; walls with less carry none", "m"
