@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The channels of a frame by the names that files give them (design section 7).
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frame.h"
+
+namespace nightcity {
+
+struct Channel {
+    std::string_view aov;   // what --aovs calls the group: beauty, glow, ...
+    std::string_view name;  // in EXR and CSV
+    float (*value)(const Frame& frame, std::size_t pixel);
+};
+
+// Of all AOVs, or of those named, in the order of the files. An empty list is all.
+// Throws UsageError for an unknown name, listing the known ones.
+std::vector<Channel> selectChannels(std::span<const std::string> aovs);
+
+// Throws std::runtime_error with the number of NaN and infinite values and the first
+// pixel that holds one.
+void requireFinite(const Frame& frame);
+
+}  // namespace nightcity

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "output/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include "output/pending_file.h"
+
+namespace nightcity {
+
+namespace {
+
+// Linear between the two nearest ranks. `values` must not be empty.
+double quantile(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    const double place = share * double(values.size() - 1);
+    const std::size_t below = std::size_t(place);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (place - std::floor(place)) * (values[above] - values[below]);
+}
+
+// Render calls after the first, which pays for compiling and first use; the first
+// where there is no other.
+std::vector<RenderStatistics> steadyFrames(const std::vector<RenderStatistics>& frames) {
+    return frames.size() == 1 ? frames
+                              : std::vector<RenderStatistics>(frames.begin() + 1, frames.end());
+}
+
+nlohmann::ordered_json timing(const StatisticsReport& report) {
+    const std::vector<RenderStatistics> steady = steadyFrames(report.frames);
+    std::vector<double> milliseconds;
+    for (const RenderStatistics& frame : steady) {
+        milliseconds.push_back(frame.frameMilliseconds);
+    }
+    nlohmann::ordered_json passes = nlohmann::ordered_json::object();
+    for (std::size_t p = 0; p < report.frames.back().passes.size(); ++p) {
+        std::vector<double> values;
+        for (const RenderStatistics& frame : steady) {
+            values.push_back(frame.passes.at(p).milliseconds);
+        }
+        passes[report.frames.back().passes[p].name] = quantile(values, 0.5);
+    }
+    return {{"load_ms", report.loadMilliseconds},
+            {"bake_ms", report.bakeMilliseconds},
+            {"first_frame_ms", report.frames.front().frameMilliseconds},
+            {"steady_frame_ms", quantile(milliseconds, 0.5)},
+            {"steady_frames", milliseconds.size()},
+            {"spread_ms", quantile(milliseconds, 0.75) - quantile(milliseconds, 0.25)},
+            {"passes", passes}};
+}
+
+std::uint64_t peakHostBytes() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return std::uint64_t(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+void writeStatistics(const std::filesystem::path& file, const StatisticsReport& report) {
+    const RenderStatistics& last = report.frames.back();
+    const nlohmann::ordered_json times = timing(report);
+    const double seconds = times["steady_frame_ms"].get<double>() / 1000;
+    nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+    for (const auto& [name, value] : report.settings) {
+        settings[name] = value;
+    }
+    const nlohmann::ordered_json json = {
+        {"device", last.device},
+        {"settings", settings},
+        {"counts",
+         {{"buildings", report.buildings},
+          {"windows", report.windows},
+          {"media_boxes", report.mediaBoxes},
+          {"triangles", report.triangles},
+          {"light_list_entries", report.lightListEntries},
+          {"light_pages", last.lightPages},
+          {"light_evaluations", last.lightEvaluations}}},
+        {"timing", times},
+        {"memory", {{"device_bytes", last.deviceMemoryBytes}, {"host_peak_bytes", peakHostBytes()}}},
+        {"light_storage", last.lightStorage},
+        {"light_evaluations_per_second", seconds > 0 ? double(last.lightEvaluations) / seconds : 0},
+        {"notes", report.notes}};
+    writeTextFile(file, json.dump(2) + "\n");
+}
+
+}  // namespace nightcity
