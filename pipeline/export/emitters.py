@@ -97,7 +97,7 @@ def check(table: EmitterTable) -> None:
     _refuse(table, bad, "its power and colour must be finite and not negative")
     u, v = (np.linalg.norm(half, axis=1) for half in (table.half_u, table.half_v))
     tiny = np.finfo(np.float32).tiny
-    _refuse(table, (u < tiny) | (v < tiny), "it has no width or no height")
+    _refuse(table, u * v < tiny, "it has no width or no height")
     cosine = np.abs(np.einsum("ni,ni->n", table.half_u, table.half_v)) / np.maximum(u * v, tiny)
     _refuse(
         table,
@@ -142,7 +142,10 @@ def ordered(table: EmitterTable) -> EmitterTable:
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
     columns = {name: getattr(table, name)[order] for name in ROWS}
-    row = place[table.event_row]
-    by_time = np.lexsort((row, table.event_time))
-    columns |= {"event_time": table.event_time[by_time], "event_row": row[by_time]}
-    return EmitterTable(**columns, event_on=table.event_on[by_time], paths=table.paths)
+    row, frame = place[table.event_row], table.event_time.astype(np.float32)
+    by_time = np.lexsort((table.event_time, row, frame))
+    # Of several events that fall on one float32 frame the last one counts.
+    follows = (np.diff(row[by_time]) == 0) & (np.diff(frame[by_time]) == 0)
+    kept = by_time[~np.append(follows, np.zeros(min(len(row), 1), bool))]
+    columns |= {"event_time": table.event_time[kept], "event_row": row[kept]}
+    return EmitterTable(**columns, event_on=table.event_on[kept], paths=table.paths)

@@ -107,8 +107,8 @@ def _flatten(source: Source, findings: Findings, lists: str) -> tuple[dict[str, 
     geometry = read_geometry(source, items["geometry"], materials)
     ground = read_ground(source, items["ground"], materials)
     media = read_media(source, items["media"])
-    table, original_ids = _read_emitters(source, findings)
-    offsets, rows = read_lists(source, media, table, original_ids, findings.hidden_windows, lists)
+    table, original_ids, hidden_ids = _read_emitters(source, findings)
+    offsets, rows = read_lists(source, media, table, original_ids, hidden_ids, lists)
     origin = scene_origin(geometry, table, media)
     arrays, owners = geometry_records(geometry, origin, source.notes)
     arrays["building"] = building_records(findings.building_ids, owners, table)
@@ -135,16 +135,21 @@ def _flatten(source: Source, findings: Findings, lists: str) -> tuple[dict[str, 
     return arrays, manifest
 
 
-def _read_emitters(source: Source, findings: Findings) -> tuple[EmitterTable, NDArray[np.int64]]:
-    """Windows and lights in the order of the file, and the ids (N,) that the stage gave them."""
-    windows, window_paths = read_windows(source, findings.items["windows"])
+def _read_emitters(
+    source: Source, findings: Findings
+) -> tuple[EmitterTable, NDArray[np.int64], NDArray[np.int64]]:
+    """Windows and lights in the order of the file, the ids (N,) that the stage gave them, and
+    the ids of windows that no frame shows."""
+    windows, window_paths, hidden_ids = read_windows(
+        source, findings.items["windows"], findings.hidden_windows
+    )
     lights, light_paths = read_lights(source, findings.items["light"])
     table = emitters.joined(windows + lights, window_paths + light_paths)
     emitters.check(table)
     table = emitters.ordered(table)
     original_ids = table.id.copy()
     emitters.number_uniquely(table, source.notes)
-    return table, original_ids
+    return table, original_ids, hidden_ids
 
 
 def _note_what_is_missing(source: Source, arrays: dict[str, NDArray]) -> None:

@@ -4,18 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Usd
 
 from nightcity.errors import SceneError
 from nightcity.export.emitters import EmitterTable
 from nightcity.export.media import Media
 from nightcity.export.notes import named
 from nightcity.export.open_stage import Source
-from nightcity.export.windows import window_ids
 from nightcity.light_lists import light_lists, window_bounds
 from nightcity.progress import Progress
 
@@ -28,19 +24,19 @@ def read_lists(
     media: Media,
     table: EmitterTable,
     original_ids: IntArray,
-    hidden: Iterable[Usd.Prim],
+    hidden_ids: IntArray,
     choice: str,
 ) -> tuple[IntArray, IntArray]:
     """Offsets (M + 1,) and rows of the table: box i is lit by rows[offsets[i]:offsets[i + 1]].
 
-    original_ids: (N,) ids as the stage has them. hidden: instancers that no frame shows.
+    original_ids: (N,) ids as the stage has them. hidden_ids: of windows that no frame shows.
     choice: "recomputed" or "authored"; the stage's own lights come from geometry in both.
     Raises SceneError for an authored id that no window of the stage has.
     """
     offsets, rows = _from_geometry(media, table)
     box = np.repeat(np.arange(len(media)), np.diff(offsets))
     authored_box, ids, stated = _authored(media)
-    meaning = _Meaning(source, table, original_ids, hidden)
+    meaning = _Meaning(table, original_ids, hidden_ids)
     authored_row = meaning.rows(ids)
     if choice == "authored":
         _refuse_unknown(media, authored_box, ids, authored_row)
@@ -84,14 +80,11 @@ def _authored(media: Media) -> tuple[IntArray, IntArray, NDArray[np.bool_]]:
 class _Meaning:
     """Which emitter an authored id means; the first one where several share it."""
 
-    def __init__(
-        self, source: Source, table: EmitterTable, original_ids: IntArray, hidden: Iterable
-    ) -> None:
+    def __init__(self, table: EmitterTable, original_ids: IntArray, hidden_ids: IntArray) -> None:
         windows = np.flatnonzero(~table.foreign & (original_ids >= 0))
         self._ids, first = np.unique(original_ids[windows], return_index=True)
         self._rows = windows[first]
-        hidden_ids = [window_ids(prim, source.time) for prim in hidden]
-        self._hidden = np.unique(np.concatenate([np.empty(0, np.int64), *hidden_ids]))
+        self._hidden = hidden_ids
 
     def rows(self, ids: IntArray) -> IntArray:
         """(E,) rows of the table, _HIDDEN for windows that are not shown, else _ABSENT."""

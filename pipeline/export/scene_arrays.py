@@ -81,18 +81,24 @@ def building_records(
 def window_records(table: EmitterTable, origin: FloatArray) -> NDArray:
     """The array window."""
     records = np.zeros(len(table), RECORDS["window"])
-    records["centre"] = table.centre - origin
-    records["half_u"], records["half_v"] = table.half_u, table.half_v
-    records["power"], records["colour"] = table.power, table.colour
+    with np.errstate(over="ignore"):  # found below
+        records["centre"] = table.centre - origin
+        records["half_u"], records["half_v"] = table.half_u, table.half_v
+        records["power"], records["colour"] = table.power, table.colour
     records["building"] = np.where(table.building < 0, NONE, table.building)
     records["window_id"] = table.id
     records["flags"] = table.on * WINDOW_ON + table.sphere * WINDOW_SPHERE
     for name in ("centre", "half_u", "half_v", "power", "colour"):
-        values = records[name].reshape(len(records), -1)
-        bad = ~np.isfinite(values).all(axis=1)
+        values = records[name]
+        bad = ~np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
         if bad.any():
             where = table.where(int(np.argmax(bad)))
-            raise SceneError(f"{where}: its {name} is further than float32 can hold")
+            raise SceneError(f"{where}: its {name} is more than float32 can hold")
+    with np.errstate(over="ignore"):
+        bright = ~np.isfinite(records["power"][:, None] * records["colour"]).all(axis=1)
+    if bright.any():
+        where = table.where(int(np.argmax(bright)))
+        raise SceneError(f"{where}: its power times its color is more than float32 can hold")
     return records
 
 

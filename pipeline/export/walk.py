@@ -127,7 +127,8 @@ class _Walker:
     def _place(self, prim: Usd.Prim, inherited: _Place) -> _Place:
         source, changes = self._source, {}
         local, resets = self._transforms.GetLocalTransformation(prim)
-        matrix = np.array(local) @ (self._root if resets else inherited.matrix)
+        with np.errstate(invalid="ignore", over="ignore"):
+            matrix = np.array(local) @ (self._root if resets else inherited.matrix)
         if not np.isfinite(matrix).all():
             raise SceneError(f"{prim.GetPath()}: its transform is not finite")
         if not source.still and (inherited.moving is None or resets):

@@ -21,34 +21,40 @@ from nightcity.progress import Progress
 Columns = dict[str, NDArray]
 
 
-def read_windows(source: Source, items: Sequence[Item]) -> tuple[list[Columns], list[str]]:
-    """Columns of the table of emitters and a path for each item.
+def read_windows(
+    source: Source, items: Sequence[Item], hidden: Sequence[Usd.Prim]
+) -> tuple[list[Columns], list[str], NDArray[np.int64]]:
+    """Columns of the table of emitters, a path for each item, and the ids of windows that no
+    frame shows.
 
-    Raises SceneError naming the prim and the attribute that does not fit.
+    hidden: instancers that are hidden as a whole. Raises SceneError naming the prim and the
+    attribute that does not fit.
     """
     parts, paths = [], []
+    hidden_ids = [_ids(prim, source) for prim in hidden]
     with Progress("reading windows", sum(len(item.matrices) for item in items)) as progress:
         for item in items:
-            parts.append(_read(source, item))
+            columns, unseen = _read(source, item)
+            parts.append(columns)
+            hidden_ids.append(unseen)
             paths.append(str(item.prim.GetPath()))
             progress.advance(len(item.matrices))
-    return parts, paths
+    return parts, paths, np.unique(np.concatenate([np.empty(0, np.int64), *hidden_ids]))
 
 
-def window_ids(prim: Usd.Prim, time: Usd.TimeCode) -> NDArray[np.int64]:
+def _ids(prim: Usd.Prim, source: Source) -> NDArray[np.int64]:
     """The ids that an instancer states, (N,) or empty."""
-    ids = prim.GetAttribute("ids").Get(time)
-    return np.array(ids if ids is not None else [], dtype=np.int64)
+    return np.array(source.value(prim, "ids", ()), dtype=np.int64)
 
 
-def _read(source: Source, item: Item) -> Columns:
-    """Every window of one instancer and of its copies."""
+def _read(source: Source, item: Item) -> tuple[Columns, NDArray[np.int64]]:
+    """Every window of one instancer and of its copies; the ids of those that do not exist."""
     prim = item.prim
     transforms = instance_transforms(source, prim, with_prototype=True)
     count = len(transforms)
     times, states, exists = _states(source, item, count)
     kept = np.flatnonzero(exists)
-    ids = window_ids(prim, source.time)
+    ids = _ids(prim, source)
     ids = ids if len(ids) else np.full(count, NO_ID)
     size = np.array(source.value(prim, "nightcity:windowSize"), dtype=np.float64)
     if not (np.isfinite(size) & (size > 0)).all():
@@ -58,7 +64,7 @@ def _read(source: Source, item: Item) -> Columns:
     changed = np.diff(states[:, kept].astype(np.int8), axis=0)
     step, column = np.nonzero(changed)
     shift = len(kept) * np.arange(copies)[:, None]
-    return {
+    columns = {
         "centre": world[:, 3, :3],
         "half_u": 0.5 * size[0] * world[:, 0, :3],
         "half_v": 0.5 * size[1] * world[:, 1, :3],
@@ -75,6 +81,7 @@ def _read(source: Source, item: Item) -> Columns:
         "event_row": (column + shift).reshape(-1),
         "event_on": np.tile(changed[step, column] > 0, copies),
     }
+    return columns, ids[~exists]
 
 
 def _states(
