@@ -24,7 +24,7 @@ enum class Surfaces { dim, lit };
 // How its integral is computed.
 enum class Method {
     march,      // N equal steps a segment, midpoints, on the GPU
-    reference,  // the same march in double precision, on the CPU
+    reference,  // in double precision, on the CPU: the same march, or the exact integral
 };
 enum class MarchOrder { steps, lights };        // which loop is outside
 enum class LightStorage { uniform, storage };   // where the light lists live
@@ -45,6 +45,8 @@ struct RenderSettings {
     LightStorage lightStorage = LightStorage::uniform;
     std::uint32_t subdivisions = 25;         // steps a segment, at least 1
     std::optional<std::uint32_t> lightCap;   // at most this many lit windows a box, the nearest ids first
+    // Method::reference: exact to a tenth of this (relative); unset: the march.
+    std::optional<double> tolerance;
     bool media = true;                       // off: the surface frame
     std::uint32_t pixelSamples = 1;
     Filter filter = Filter::box;             // with 1 sample: the pixel centre

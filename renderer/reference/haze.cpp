@@ -16,9 +16,9 @@ constexpr double kTriangleArea = 0.5;   // of all weights (a, b) with a, b >= 0 
 constexpr double kAreaRounding = 1e-13;
 constexpr double kSameFraction = 1e-12;
 
-std::vector<HazeBox> hazeBoxes(const FlatScene& scene) {
+std::vector<HazeBox> hazeBoxes(std::span<const MediaBox> media) {
     std::vector<HazeBox> boxes;
-    for (const MediaBox& box : scene.mediaBoxes) {
+    for (const MediaBox& box : media) {
         if (box.extinction > 0) {
             boxes.push_back({{glm::dvec3(box.lo), glm::dvec3(box.hi)}, double(box.extinction)});
         }
@@ -139,7 +139,7 @@ double SourceDepth::at(glm::dvec3 place, double distance) const {
     return depth * distance;
 }
 
-Haze::Haze(const FlatScene& scene) : boxes_(hazeBoxes(scene)), tree_(boundsOf(boxes_)) {}
+Haze::Haze(std::span<const MediaBox> media) : boxes_(hazeBoxes(media)), tree_(boundsOf(boxes_)) {}
 
 SourceDepth Haze::between(glm::dvec3 source, glm::dvec3 begin, glm::dvec3 end) const {
     const ViewTriangle view(source, begin, end);
@@ -171,6 +171,17 @@ SourceDepth Haze::between(glm::dvec3 source, glm::dvec3 begin, glm::dvec3 end) c
     }
     sortKinks(kinks);
     return {source, std::move(boxes), std::move(kinks)};
+}
+
+double Haze::depth(glm::dvec3 from, glm::dvec3 to) const {
+    Bounds around;
+    around.add(from);
+    around.add(to);
+    double depth = 0;
+    tree_.visitTouching(around, [&](std::uint32_t index) {
+        depth += boxes_[index].extinction * partInside(boxes_[index].bounds, from, to - from);
+    });
+    return depth * glm::length(to - from);
 }
 
 }  // namespace nightcity

@@ -45,12 +45,14 @@ private:
 
 class Haze {
 public:
-    explicit Haze(const FlatScene& scene);
+    explicit Haze(std::span<const MediaBox> media);
 
     // Where one extinction fills the whole triangle between source and stretch the
     // depth is that times the distance; otherwise it has kinks, where the way
     // crosses an edge of a box.
     SourceDepth between(glm::dvec3 source, glm::dvec3 begin, glm::dvec3 end) const;
+    // Between two points.
+    double depth(glm::dvec3 from, glm::dvec3 to) const;
 
 private:
     std::vector<HazeBox> boxes_;

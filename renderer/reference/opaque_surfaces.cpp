@@ -115,6 +115,7 @@ void OpaqueSurfaces::seeTriangle(const Ray& ray, const TriangleHit& found, Surfa
     }
     hit.distance = found.distance;
     hit.normal = glm::dot(normal, ray.direction) > 0 ? -normal : normal;
+    hit.reflectance = colour;
     hit.radiance = kDim * colour;
     hit.materialId = float(triangle.material);
 }
@@ -127,7 +128,8 @@ void OpaqueSurfaces::seeGround(const Ray& ray, SurfaceHit& hit) const {
     if (distance > 0 && distance < hit.distance) {
         hit.distance = distance;
         hit.normal = {0, 0, ray.direction.z > 0 ? -1 : 1};
-        hit.radiance = kDim * glm::dvec3(scene_.materials[scene_.ground->material].reflectance);
+        hit.reflectance = glm::dvec3(scene_.materials[scene_.ground->material].reflectance);
+        hit.radiance = kDim * hit.reflectance;
         hit.materialId = float(scene_.ground->material);
     }
 }
@@ -167,6 +169,7 @@ void OpaqueSurfaces::seePanes(const Ray& ray, SurfaceHit& hit) const {
         hit.distance = distance;
         hit.normal = facing > 0 ? -normal : normal;
         hit.radiance = facing < 0 && windowsOn_[index] ? paneRadiance(window) : glm::dvec3(0);
+        hit.reflectance = glm::dvec3(0);
         hit.materialId = -1;
     });
 }

@@ -17,7 +17,8 @@ namespace nightcity {
 struct SurfaceHit {
     double distance = std::numeric_limits<double>::infinity();  // m along the ray
     glm::dvec3 normal{0};    // towards the ray's origin
-    glm::dvec3 radiance{0};  // W m^-2 sr^-1
+    glm::dvec3 radiance{0};  // W m^-2 sr^-1, as `--surfaces dim` shows it
+    glm::dvec3 reflectance{0};  // of the material there; 0 for sky and panes
     float materialId = -1;   // index of the material, -1 for sky and panes
 
     bool isSky() const { return distance == std::numeric_limits<double>::infinity(); }

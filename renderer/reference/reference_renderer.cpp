@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <memory>
 
+#include "reference/exact_integral.h"
 #include "reference/march.h"
 #include "reference/work_units.h"
 #include "sample_positions.h"
@@ -14,13 +16,24 @@ namespace nightcity {
 
 namespace {
 
-constexpr std::size_t kUnitPixels = 256;  // a thread's share of the work at a time
+// A thread's share of the work at a time.
+constexpr std::size_t kMarchedPixels = 256;
+constexpr std::size_t kExactPixels = 4;
+
+std::unique_ptr<RayIntegrator> makeIntegrator(const FlatScene& scene, int frame,
+                                              const RenderSettings& settings) {
+    if (settings.tolerance) {
+        return std::make_unique<ExactIntegral>(
+            scene, frame, settings, judgeAccuracy(*settings.tolerance, scene.windows.size()));
+    }
+    return std::make_unique<March>(scene, frame, settings);
+}
 
 class PixelRenderer {
 public:
     PixelRenderer(const FlatScene& scene, const RenderProduct& product,
                   const RenderSettings& settings)
-        : march_(scene, product.frame, settings),
+        : integrator_(makeIntegrator(scene, product.frame, settings)),
           camera_(scene.camera(product.camera).at(product.frame)),
           product_(product),
           positions_(samplePositions(settings)),
@@ -35,7 +48,7 @@ public:
             const glm::dvec2 image = glm::dvec2(pixel) + 0.5 + glm::dvec2(positions_[i]);
             const Ray ray = cameraRay(camera_, product_.cameraOffset, image,
                                       {product_.width, product_.height});
-            const RayResult result = march_.trace(ray);
+            const RayResult result = integrator_->trace(ray);
             glow += result.glow;
             surface += result.surface.radiance * result.transmittance;
             transmittance += result.transmittance;
@@ -65,7 +78,7 @@ private:
         }
     }
 
-    March march_;
+    std::unique_ptr<RayIntegrator> integrator_;
     const CameraFrame& camera_;
     const RenderProduct& product_;
     std::vector<glm::vec2> positions_;
@@ -91,15 +104,16 @@ ReferenceImage renderReference(const FlatScene& scene, const RenderProduct& prod
     image.frame.resize(listed ? std::uint32_t(count) : product.width,
                        listed ? 1 : product.height);
     std::atomic<std::uint64_t> evaluations{0};
+    const std::size_t unitPixels = settings.tolerance ? kExactPixels : kMarchedPixels;
     const auto unit = [&](std::size_t index) {
-        const std::size_t last = std::min(count, (index + 1) * kUnitPixels);
-        for (std::size_t i = index * kUnitPixels; i < last; ++i) {
+        const std::size_t last = std::min(count, (index + 1) * unitPixels);
+        for (std::size_t i = index * unitPixels; i < last; ++i) {
             const glm::uvec2 pixel =
                 listed ? product.pixels[i] : glm::uvec2(i % product.width, i / product.width);
             evaluations += renderer.render(pixel, i, image.frame);
         }
     };
-    forEachUnit((count + kUnitPixels - 1) / kUnitPixels, unit, progress);
+    forEachUnit((count + unitPixels - 1) / unitPixels, unit, progress);
     image.statistics.bakeMilliseconds = milliseconds(ready - start);
     image.statistics.frameMilliseconds = milliseconds(Clock::now() - ready);
     image.statistics.passes = {{"reference", image.statistics.frameMilliseconds}};

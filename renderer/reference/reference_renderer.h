@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `--method reference`: the judge of the GPU's march. No Vulkan.
+// `--method reference`: the judge of every other method. No Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@ struct ReferenceImage {
     RenderStatistics statistics;
 };
 
-// On all cores; the same bytes whatever their number. `progress` (share done, 0 to 1)
+// The exact integral where settings.tolerance is set, else the march of
+// settings.subdivisions. On all cores; the same bytes whatever their number. `progress` (share done, 0 to 1)
 // is called on this thread; what it throws ends the work.
 ReferenceImage renderReference(const FlatScene& scene, const RenderProduct& product,
                                const RenderSettings& settings,

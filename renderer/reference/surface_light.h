@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Light that falls from the windows straight on a point of a surface.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "reference/light_scene.h"
+#include "reference/window_sum.h"
+
+namespace nightcity {
+
+struct SurfacePoint {
+    glm::dvec3 place{0};   // m
+    glm::dvec3 normal{0};  // unit vector, to the side that is seen
+    // The media box that the seen side lies in, into LightScene::mediaBoxes. Listed
+    // lights and attenuation without visibility are those of this box; none: no
+    // listed light, and clear air.
+    std::optional<std::uint32_t> box;
+};
+
+class SurfaceLight {
+public:
+    // `lights` must outlive it.
+    SurfaceLight(const LightScene& lights, const Accuracy& accuracy);
+
+    // Irradiance, W m^-2.
+    WindowSum irradiance(const SurfacePoint& point) const;
+
+private:
+    // m^-2: irradiance per watt.
+    Estimate fromWindow(const SurfacePoint& point, const LitWindow& window,
+                        const Tolerance& tolerance) const;
+    double fromPoint(const SurfacePoint& point, const PointSource& source) const;
+    Estimate fromPane(const SurfacePoint& point, const LitWindow& window,
+                      const Tolerance& tolerance) const;
+    Estimate fromLine(const SurfacePoint& point, const LitWindow& window,
+                      const std::vector<std::uint32_t>& faces, double v,
+                      const Tolerance& tolerance) const;
+    double ownExtinction(const SurfacePoint& point) const;
+
+    const LightScene& lights_;
+    Accuracy accuracy_;
+};
+
+}  // namespace nightcity
