@@ -147,7 +147,8 @@ class _Parts:
         matrices = item.matrices
         world = mesh.points @ matrices[:, :3, :3] + matrices[:, None, 3, :3]
         # A mirrored copy turns its triangles over, so that outside stays outside.
-        mirrored = np.linalg.det(matrices[:, :3, :3]) < 0
+        with np.errstate(over="ignore"):
+            mirrored = np.linalg.det(matrices[:, :3, :3]) < 0
         wound = np.where(mirrored[:, None, None], mesh.triangles[:, ::-1], mesh.triangles)
         first = self.count + points * np.arange(copies)
         self.positions.append(world.reshape(-1, 3))

@@ -10,7 +10,6 @@ from pxr import Usd, UsdGeom
 
 from nightcity.errors import SceneError
 from nightcity.export.open_stage import Source
-from nightcity.export.timeline import change_times
 
 
 def instance_transforms(
@@ -45,7 +44,7 @@ def instance_masks(
 ) -> tuple[list[float], NDArray[np.bool_]]:
     """Times (T,) and, from each on, which of the instances exist and are visible (T, N)."""
     instancer = UsdGeom.PointInstancer(prim)
-    times = change_times(instancer.GetInvisibleIdsAttr(), source.frames)
+    times = source.change_times(instancer.GetInvisibleIdsAttr())
     masks = [instancer.ComputeMaskAtTime(Usd.TimeCode(time)) for time in times]
     rows = [np.array(mask, dtype=bool) if mask else np.ones(count, dtype=bool) for mask in masks]
     return times, np.stack(rows)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Tf, Usd, UsdGeom
+from pxr import Gf, Tf, Usd, UsdGeom
 
 from nightcity import schemas
 from nightcity.errors import SceneError, UsageError
@@ -52,6 +52,14 @@ class Source:
             )
         value = attribute.Get(self.time)
         return fallback if value is None else value
+
+    def change_times(self, attribute: Usd.Attribute) -> list[float]:
+        """The first frame, then every time up to the last at which a held attribute is sampled."""
+        first, last = self.frames
+        if not self.varies(attribute):
+            return [float(first)]
+        times = attribute.GetTimeSamplesInInterval(Gf.Interval(first, last))
+        return [float(first), *(time for time in times if time > first)]
 
     def varies(self, item: Usd.Attribute | UsdGeom.Xformable) -> bool:
         """Whether an attribute or a local transform may change within the frames."""

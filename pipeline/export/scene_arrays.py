@@ -39,7 +39,8 @@ def geometry_records(
     """The arrays position, texcoord and triangle, triangles by building with those of none last;
     and the building of each triangle, (T,), -1 for none. Triangles without area are dropped."""
     position = np.zeros(len(geometry.positions), RECORDS["position"])
-    position["position"] = geometry.positions - origin
+    with np.errstate(over="ignore"):
+        position["position"] = geometry.positions - origin
     if not np.isfinite(position["position"]).all():
         raise SceneError("the geometry reaches further than float32 can hold; check its units")
     solid = _has_area(position["position"], geometry.vertices)

@@ -7,8 +7,6 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass
 
-from pxr import Gf, Usd
-
 
 @dataclass(frozen=True, slots=True)
 class Timeline:
@@ -39,12 +37,3 @@ class Timeline:
 
 
 ALWAYS = Timeline((float("-inf"),), (True,))
-
-
-def change_times(attribute: Usd.Attribute, frames: tuple[int, int]) -> list[float]:
-    """The first frame, then every time up to the last at which a held attribute has a sample."""
-    first, last = frames
-    if last == first or not attribute.ValueMightBeTimeVarying():
-        return [float(first)]
-    times = attribute.GetTimeSamplesInInterval(Gf.Interval(first, last))
-    return [float(first), *(time for time in times if time > first)]

@@ -14,7 +14,7 @@ from nightcity.errors import SceneError
 from nightcity.export.findings import Findings, Item
 from nightcity.export.instancer import instance_masks, instance_transforms, prototype_indices
 from nightcity.export.open_stage import Source
-from nightcity.export.timeline import ALWAYS, Timeline, change_times
+from nightcity.export.timeline import ALWAYS, Timeline
 from nightcity.progress import Progress
 
 _CHILDREN = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
@@ -136,7 +136,7 @@ class _Walker:
             changes["moving"] = str(prim.GetPath()) if moves else None
         visibility = prim.GetAttribute("visibility")
         if visibility.HasAuthoredValue():
-            times = change_times(visibility, source.frames)
+            times = source.change_times(visibility)
             values = tuple(visibility.Get(time) != "invisible" for time in times)
             if not all(values):
                 changes["visible"] = inherited.visible.both(Timeline(tuple(times), values))

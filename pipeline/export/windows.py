@@ -15,7 +15,6 @@ from nightcity.export.emitters import NO_ID
 from nightcity.export.findings import Item
 from nightcity.export.instancer import instance_masks, instance_transforms
 from nightcity.export.open_stage import Source
-from nightcity.export.timeline import change_times
 from nightcity.progress import Progress
 
 Columns = dict[str, NDArray]
@@ -92,7 +91,7 @@ def _states(
     A window exists where it is visible at some frame; hidden, it is dark.
     """
     lit = item.prim.GetAttribute("nightcity:lightOn")
-    lit_times = change_times(lit, source.frames)
+    lit_times = source.change_times(lit)
     lit_rows = [_light_on(item.prim, lit, time, count) for time in lit_times]
     mask_times, masks = instance_masks(source, item.prim, count)
     first = float(source.frames[0])
