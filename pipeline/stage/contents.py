@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 from pxr import Usd, UsdGeom, UsdLux
@@ -37,12 +38,13 @@ class Contents:
     ours: list[Usd.Prim] = field(default_factory=list)
     cameras: int = 0
     lights: int = 0
-    metres: float = 1.0  # per stage unit
+    metres: float = 1.0  # per stage unit; 1 where the stage has no sensible value
 
 
 def read_contents(stage: Usd.Stage) -> Contents:
     """Walk the stage: everything active, loaded and defined."""
-    contents = Contents(stage, metres=UsdGeom.GetStageMetersPerUnit(stage))
+    metres = UsdGeom.GetStageMetersPerUnit(stage)
+    contents = Contents(stage, metres=metres if 0 < metres < math.inf else 1.0)
     places = {
         "NightcityWindowsAPI": contents.windows,
         "NightcityMediaAPI": contents.media,

@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from pxr import Usd
+from pxr import Tf, Usd
 
 
 @dataclass(frozen=True)
@@ -34,3 +34,9 @@ def error(prim: Usd.Prim, attribute: str, message: str) -> Finding:
 
 def warning(prim: Usd.Prim, attribute: str, message: str) -> Finding:
     return Finding("warning", str(prim.GetPath()), attribute, message)
+
+
+def first_line(problem: Tf.ErrorException) -> str:
+    """What USD says went wrong, without where in its source."""
+    parts = [str(part.commentary) for part in problem.args if hasattr(part, "commentary")]
+    return (parts or [str(problem).strip()])[0]

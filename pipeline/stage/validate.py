@@ -13,7 +13,7 @@ from nightcity import schemas
 from nightcity.errors import SceneError
 from nightcity.progress import Progress
 from nightcity.stage.contents import Contents, read_contents
-from nightcity.stage.finding import Finding
+from nightcity.stage.finding import Finding, first_line
 from nightcity.stage.validate_attributes import check_names, check_ranges, check_schemas
 from nightcity.stage.validate_media import check_media
 from nightcity.stage.validate_scene import (
@@ -62,7 +62,7 @@ def _validate(path: Path) -> list[Finding]:
     try:
         stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
     except Tf.ErrorException as problem:
-        return [Finding("error", "", "", f"{path}: USD cannot open it: {_first_line(problem)}")]
+        return [Finding("error", "", "", f"{path}: USD cannot open it: {first_line(problem)}")]
     contents = read_contents(stage)
     findings: list[Finding] = []
     with Progress("validating", len(CHECKS)) as progress:
@@ -70,8 +70,3 @@ def _validate(path: Path) -> list[Finding]:
             findings += check(contents)
             progress.advance()
     return findings
-
-
-def _first_line(problem: Tf.ErrorException) -> str:
-    parts = [str(part.commentary) for part in problem.args if hasattr(part, "commentary")]
-    return (parts or [str(problem).strip()])[0]

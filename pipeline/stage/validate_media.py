@@ -18,6 +18,7 @@ from nightcity.stage.values import EARLIEST, numbers
 
 _MOST_OVERLAPS = 50  # named; more than that have one cause
 _SKEW = 1e-6  # of a box's edge: what float32 transforms leave of an exact quarter turn
+_SAME_FACE = 1e-4  # m; the export moves faces closer than this onto each other
 
 
 def check_media(contents: Contents) -> Iterator[Finding]:
@@ -48,7 +49,8 @@ def _check_numbers(media: list[Usd.Prim]) -> Iterator[Finding]:
             continue  # reported with the ranges
         other = first.setdefault(number, prim)
         if other != prim:
-            yield error(
+            # Native instances share the number; the export gives them new ones.
+            yield (warning if prim.IsInstanceProxy() else error)(
                 prim,
                 "nightcity:mediaId",
                 f"{number} is also the number of {other.GetPath()}; give each box its own",
@@ -82,9 +84,9 @@ def _corners(prim: Usd.Prim, transforms: UsdGeom.XformCache) -> tuple[np.ndarray
 def _check_overlaps(boxes: list[tuple[Usd.Prim, np.ndarray]]) -> Iterator[Finding]:
     if not boxes:
         return
-    # As the renderer holds them: what float32 cannot tell apart does not overlap.
-    corners = np.array([corners for _, corners in boxes]).astype(np.float32)
-    pairs = box_overlaps(corners[:, 0], corners[:, 1], _MOST_OVERLAPS + 1)
+    corners = np.array([corners for _, corners in boxes])
+    shrunk = corners[:, 0] + 0.5 * _SAME_FACE, corners[:, 1] - 0.5 * _SAME_FACE
+    pairs = box_overlaps(*shrunk, _MOST_OVERLAPS + 1)
     for first, second in pairs[:_MOST_OVERLAPS]:
         yield error(
             boxes[second][0],

@@ -9,10 +9,10 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from pxr import UsdGeom, UsdValidation
+from pxr import Tf, UsdGeom, UsdValidation
 
 from nightcity.stage.contents import Contents
-from nightcity.stage.finding import Finding, error, warning
+from nightcity.stage.finding import Finding, error, first_line, warning
 from nightcity.stage.values import EARLIEST, numbers
 
 _FLAT = 1e-3  # m; twice float32's rounding at 8 km
@@ -33,7 +33,8 @@ _MENDS = {
 
 
 def check_units(contents: Contents) -> Iterator[Finding]:
-    metres, rate = contents.metres, contents.stage.GetTimeCodesPerSecond()
+    metres = UsdGeom.GetStageMetersPerUnit(contents.stage)
+    rate = contents.stage.GetTimeCodesPerSecond()
     if not (math.isfinite(metres) and metres > 0):
         yield _stage_error("metersPerUnit", f"is {metres}; it must be above 0, 1 for metres")
     if not (math.isfinite(rate) and rate > 0):
@@ -100,13 +101,22 @@ def check_with_usd(contents: Contents) -> Iterator[Finding]:
             keyword.startswith(_SKIPPED) for keyword in validator.GetMetadata().GetKeywords()
         )
     ]
-    for found in UsdValidation.ValidationContext(validators).Validate(contents.stage):
-        kind = found.GetType()
-        severity = "error" if kind == UsdValidation.ValidationErrorType.Error else "warning"
-        prim, attribute = _place(found)
-        mend = _MENDS.get(str(found.GetName()), "")
-        message = found.GetMessage().strip().rstrip(".")
-        yield Finding(severity, prim, attribute, f"{message}; {mend}" if mend else message)
+    for validator in validators:
+        try:
+            errors = UsdValidation.ValidationContext([validator]).Validate(contents.stage)
+        except Tf.ErrorException as problem:  # a layer that is broken half-way, for example
+            yield _stage_error("", f"{validator.GetMetadata().name} gave up: {first_line(problem)}")
+            continue
+        yield from map(_translated, errors)
+
+
+def _translated(found: UsdValidation.ValidationError) -> Finding:
+    kind = found.GetType()
+    severity = "error" if kind == UsdValidation.ValidationErrorType.Error else "warning"
+    prim, attribute = _place(found)
+    mend = _MENDS.get(str(found.GetName()), "")
+    message = found.GetMessage().strip().rstrip(".")
+    return Finding(severity, prim, attribute, f"{message}; {mend}" if mend else message)
 
 
 def _place(found: UsdValidation.ValidationError) -> tuple[str, str]:

@@ -25,9 +25,10 @@ def numbers(
 def as_numbers(value: object, dtype: DTypeLike = np.float64) -> NDArray:
     """``value`` as numpy has it; empty where it holds no numbers."""
     try:
-        return np.array([] if value is None else value, dtype=dtype)
-    except (TypeError, ValueError, OverflowError):
+        found = np.array([] if value is None else value)
+    except (TypeError, ValueError):
         return np.empty(0, dtype)
+    return found.astype(dtype) if found.dtype.kind in "biuf" else np.empty(0, dtype)
 
 
 def samples(prim: Usd.Prim, name: str) -> Iterator[tuple[Usd.TimeCode, object]]:

@@ -16,6 +16,7 @@ from nightcity.city.model import (
     Mesh,
     Windows,
 )
+from nightcity.light_lists import light_lists, window_bounds
 
 BRICKS = np.array([[[200, 90, 70], [180, 80, 60]], [[90, 40, 30], [70, 30, 20]]], np.uint8)
 
@@ -67,6 +68,23 @@ def media_row(edges: list[float], height: float) -> tuple[MediaBox, ...]:
     )
 
 
+def lists_by_rule(buildings: tuple[Building, ...], media: tuple[MediaBox, ...]) -> LightLists:
+    """The lists that the paper's rule gives; window i has the id i."""
+    bounds = [
+        window_bounds(each.windows.centres + each.origin, each.windows.half_u, each.windows.half_v)
+        for each in buildings
+    ]
+    lo, hi = (np.concatenate(corners) for corners in zip(*bounds, strict=True))
+    offsets, found = light_lists(
+        lo,
+        hi,
+        [box.lo for box in media],
+        [box.hi for box in media],
+        [box.reach_scale for box in media],
+    )
+    return LightLists(offsets, found)
+
+
 def small_city(buildings: int = 2) -> City:
     """A row of buildings along x, each 10 m wide, 10 m apart; boxes before them hold haze."""
     row = tuple(
@@ -84,10 +102,7 @@ def small_city(buildings: int = 2) -> City:
         name="Small",
         buildings=row,
         media=media,
-        light_lists=LightLists(
-            offsets=np.arange(buildings + 1) * 2,
-            window_ids=np.concatenate([[4 * index, 4 * index + 1] for index in range(buildings)]),
-        ),
+        light_lists=lists_by_rule(row, media),
         cameras=(
             Camera("overview", (95.0, -125.0, 62.0), (0.0, 0.0, 6.0), 33.141),
             Camera("street", (1.5, -38.0, 2.0), (0.0, 10.0, 14.0), 60.0),
