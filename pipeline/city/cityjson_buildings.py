@@ -67,11 +67,11 @@ def source_buildings(file: CityJson, lod: str, notes: Counter[str]) -> list[Sour
 def _note_what_is_left_out(file: CityJson, notes: Counter[str]) -> None:
     for name, item in file.objects.items():
         if item["type"] not in _BODIES:
-            notes[f"objects of type {item['type']} are no buildings: left out"] += 1
+            notes[f"objects of type {item['type']}, no buildings, left out"] += 1
             continue
         for _, geometry in _geometries(file, name):
             if (kind := geometry.get("type")) not in _SUPPORTED:
-                notes[f"geometries of type {kind} are not supported: left out"] += 1
+                notes[f"geometries of type {kind}, not supported, left out"] += 1
 
 
 def _families(file: CityJson, notes: Counter[str]) -> list[tuple[str, ...]]:
@@ -89,12 +89,12 @@ def _families(file: CityJson, notes: Counter[str]) -> list[tuple[str, ...]]:
                 if claimed.setdefault(part, name) == name:
                     members[name].append(part)
                 else:
-                    notes["BuildingParts have two parents: put with the first"] += 1
+                    notes["BuildingParts with two parents, put with the first"] += 1
     for name, item in file.objects.items():
         if item["type"] == "BuildingPart" and name not in claimed:
             parent = next((p for p in _ids(file, name, "parents") if p in members), name)
             if parent == name:
-                notes["BuildingParts have no parent: taken as buildings"] += 1
+                notes["BuildingParts without a parent, taken as buildings"] += 1
             members.setdefault(parent, []).append(name)
     return [tuple(names) for names in members.values()]
 
@@ -105,7 +105,7 @@ def _parts_below(file: CityJson, name: str, notes: Counter[str]) -> Iterator[str
     while pending:
         for child in _ids(file, pending.pop(0), "children"):
             if child not in file.objects:
-                notes["children of buildings are not in the file: left out"] += 1
+                notes["children of buildings that are not in the file, left out"] += 1
             elif child not in seen and file.objects[child]["type"] == "BuildingPart":
                 seen.add(child)
                 pending.append(child)
@@ -124,10 +124,10 @@ def _source_building(
 ) -> SourceBuilding | None:
     levels = _levels(file, names)
     if not levels:
-        notes["buildings have no solid or surface geometry: left out"] += 1
+        notes["buildings without solid or surface geometry, left out"] += 1
         return None
     if lod != FINEST and float(lod) not in levels:
-        notes[f"buildings lack level of detail {lod}: left out"] += 1
+        notes[f"buildings without level of detail {lod}, left out"] += 1
         return None
     wanted = max(levels) if lod == FINEST else float(lod)
     bodies = [_body(file, name, wanted, notes) for name in names]
@@ -187,5 +187,5 @@ def _body(file: CityJson, name: str, level: float, notes: Counter[str]) -> Body 
     taken = [found for found in taken if found.rings]
     misfits = sum(found.semantics_misfit for found in taken)
     if misfits:
-        notes["geometries have semantics that do not fit: walls found by their normals"] += misfits
+        notes["geometries whose semantics do not fit, walls told by normals"] += misfits
     return Body(name, tuple(taken), bool(solids)) if taken else None

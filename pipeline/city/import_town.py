@@ -85,7 +85,7 @@ def import_town(path: Path, options: TownOptions | None = None) -> City:
             "options": dataclasses.asdict(options),
         },
         resolution=options.resolution,
-        notes=tuple(f"{count} {text}" for text, count in notes.items()),
+        notes=_sentences(notes),
     )
 
 
@@ -103,7 +103,7 @@ def _meshes(
             progress.advance()
     kept = [item for item in found if item is not None]
     if not kept:
-        raise SceneError(f"{file.path}: no building has walls or roofs; {_sentences(notes)}")
+        raise SceneError(f"{file.path}: no building has a shape; {'; '.join(_sentences(notes))}")
     grounds = [round(float(ground + middle[2]), 3) for _, ground in kept]
     for mesh, _ in kept:
         if np.ptp(mesh.positions, axis=0).max() > _LARGEST_BUILDING:
@@ -206,5 +206,5 @@ def _identifier(path: Path) -> str:
     return name if name and not name[0].isdigit() else f"town_{name}"
 
 
-def _sentences(notes: Counter[str]) -> str:
-    return "; ".join(f"{count} {text}" for text, count in notes.items()) or "all are empty"
+def _sentences(notes: Counter[str]) -> tuple[str, ...]:
+    return tuple(f"{text}: {count}" for text, count in notes.items())

@@ -20,6 +20,7 @@ from nightcity.city.town_meshes import TownMesh
 from nightcity.city.wall_windows import LaidWindows
 
 _DISTRICT = 200.0  # m, edge of the square that the overviews frame
+_AROUND = 15.0  # m around the district that street and close may lie in
 _DISTRICT_STEP = 40.0  # m between the squares that are tried
 _FOV = 60.0  # degrees, vertical, as the paper scenes' street camera
 _EYE_HEIGHT = 1.7  # m
@@ -61,6 +62,7 @@ def town_cameras(
     place for them, which is noted where there is none."""
     lo, hi = _dense_district(meshes, windows)
     cameras = list(overview_cameras(lo, hi, 0.5 * (lo + hi)[:2]))
+    lo, hi = lo - _AROUND, hi + _AROUND
     chosen = windows.take(light_on & _inside(windows.centres, lo, hi))
     across = chosen.half_u / np.maximum(np.linalg.norm(chosen.half_u, axis=1, keepdims=True), 1e-9)
     lit = _Lit(chosen.centres, chosen.outward, across, chosen.wall)
@@ -69,7 +71,7 @@ def town_cameras(
         ("close", _close(lit, space)),
     ):
         if camera is None:
-            notes[f"camera {name} finds no free place with lit windows: left out"] += 1
+            notes[f"cameras without a free place before lit windows, left out ({name})"] += 1
         else:
             cameras.append(camera)
     return tuple(cameras)

@@ -74,16 +74,16 @@ def building_mesh(
     bodies = [part for part in parts if part is not None]
     if own is not None:
         if bodies and _is_hull(own, bodies):
-            notes["Buildings have geometry around their own parts: the parts are taken"] += 1
+            notes["Buildings with geometry around their parts, which are taken instead"] += 1
         else:
             bodies.insert(0, own)
     if not bodies:
-        notes["buildings have no face with an area: left out"] += 1
+        notes["buildings without a face that has an area, left out"] += 1
         return None
     ground = min(float(body.positions[:, 2].min()) for body in bodies)
     mesh = _joined(source.name, _standing(bodies, ground))
     if len(mesh.triangles) == 0 or mesh.positions[:, 2].max() < LEAST_HEIGHT:
-        notes["buildings have no height (footprints only): left out"] += 1
+        notes["buildings without height (footprints only), left out"] += 1
         return None
     return mesh, ground
 
@@ -94,10 +94,11 @@ def _body_mesh(body: Body, points: FloatArray, notes: Counter[str]) -> TownMesh 
     cut = triangulate(rings, points, notes)
     if len(cut.vertices) == 0:
         return None
-    used, triangles = np.unique(cut.vertices, return_inverse=True)
-    mesh = TownMesh(body.name, points[used], triangles.reshape(-1, 3), surfaces[cut.polygon])
+    # By place, not by index: some files repeat a vertex for every face.
+    positions, triangles = np.unique(points[cut.vertices.ravel()], axis=0, return_inverse=True)
+    mesh = TownMesh(body.name, positions, triangles.reshape(-1, 3), surfaces[cut.polygon])
     if _volume(mesh) < 0:
-        notes["solids or surfaces are inside out: turned"] += 1
+        notes["buildings or parts inside out, turned"] += 1
         mesh = replace(mesh, triangles=mesh.triangles[:, ::-1])
     return replace(mesh, surfaces=_classified(mesh))
 

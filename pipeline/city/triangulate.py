@@ -65,7 +65,7 @@ def _triangles_of(
     normal = newell_normal(points[outer]) if len(outer) >= 3 else np.zeros(3)
     length = float(np.linalg.norm(normal))
     if 0.5 * length < SMALLEST_AREA:
-        notes["faces have no area: left out"] += 1
+        notes["faces without area, left out"] += 1
         return np.empty((0, 3), np.int64)
     holes = [ring for ring in kept[1:] if len(ring) >= 3]
     if len(outer) == 3 and not holes:
@@ -95,7 +95,7 @@ def _ear_cut(
     bounds = np.split(flat, ends[:-1])
     area = abs(_ring_area(bounds[0])) - sum(abs(_ring_area(ring)) for ring in bounds[1:])
     if abs(np.abs(areas).sum() - area) > _AREA_MISFIT * max(area, SMALLEST_AREA):
-        notes["faces have outlines that cross themselves: kept as they could be cut"] += 1
+        notes["faces whose outline crosses itself, kept as they could be cut"] += 1
     return indices[corners[np.abs(areas) > 0]]
 
 
