@@ -48,10 +48,10 @@ public:
         const std::chrono::duration<double, std::milli> wall =
             std::chrono::steady_clock::now() - start;
         statistics_.bakeMilliseconds = wall.count();
-        const LightStorageChoice& lights = scene_.lightStorage();
-        const bool uniform = lights.storage == LightStorage::uniform;
-        statistics_.lightStorage = uniform ? "uniform" : "storage";
-        statistics_.lightPages = uniform ? lights.pageCount : 0;
+        const LightPages& pages = scene_.lights().pages();
+        statistics_.lightStorage =
+            pages.storage == LightStorage::uniform ? "uniform" : "storage";
+        statistics_.lightPages = pages.count;
         instance_.throwIfMessages();
     }
 
@@ -79,8 +79,9 @@ public:
 
     std::vector<std::string> notes() const override {
         std::vector<std::string> all = deviceNotes_;
-        const std::vector<std::string> ofScene = scene_.notes();
-        all.insert(all.end(), ofScene.begin(), ofScene.end());
+        if (!scene_.lights().note().empty()) {
+            all.push_back(scene_.lights().note());
+        }
         return all;
     }
 

@@ -33,9 +33,6 @@ NIGHTCITY_ARRAY(SurfaceRecordArray, SurfaceRecord)
 NIGHTCITY_ARRAY(RayProgressArray, RayProgress)
 NIGHTCITY_ARRAY(SegmentArray, Segment)
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LightEntryArray {
-    vec4 at[];
-};
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SceneReference {
     SceneTable table;
 };

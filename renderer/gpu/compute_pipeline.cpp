@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/compute_pipeline.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "gpu/result.h"
@@ -123,18 +124,19 @@ void ComputePipeline::bindAccelerationStructure(uint32_t binding,
     vkUpdateDescriptorSets(setLayout_.device(), 1, &write, 0, nullptr);
 }
 
-void ComputePipeline::bindUniformBuffers(uint32_t binding, const Buffer& buffer,
-                                         uint64_t bytesEach, uint32_t count) {
-    std::vector<VkDescriptorBufferInfo> pieces(count);
-    for (uint32_t i = 0; i < count; ++i) {
-        pieces[i] = {buffer.get(), i * bytesEach, bytesEach};
+void ComputePipeline::bindBuffers(const Binding& binding, const Buffer& buffer,
+                                  uint64_t bytesEach) {
+    std::vector<VkDescriptorBufferInfo> pieces(binding.count);
+    for (uint32_t i = 0; i < binding.count; ++i) {
+        const uint64_t first = i * bytesEach;
+        pieces[i] = {buffer.get(), first, std::min(bytesEach, buffer.bytes() - first)};
     }
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set_;
-    write.dstBinding = binding;
-    write.descriptorCount = count;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    write.dstBinding = binding.index;
+    write.descriptorCount = binding.count;
+    write.descriptorType = binding.type;
     write.pBufferInfo = pieces.data();
     vkUpdateDescriptorSets(setLayout_.device(), 1, &write, 0, nullptr);
 }

@@ -15,7 +15,7 @@
 
 namespace nightcity::gpu {
 
-// One binding of the set: an acceleration structure, or an array of uniform buffers.
+// One binding of the set: an acceleration structure, or an array of buffers.
 struct Binding {
     uint32_t index = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
@@ -36,9 +36,9 @@ public:
     ComputePipeline(Device& device, const ComputePipelineInfo& info);
 
     void bindAccelerationStructure(uint32_t binding, VkAccelerationStructureKHR structure);
-    // `count` pieces of `bytesEach` bytes: element i of the array is piece i.
-    void bindUniformBuffers(uint32_t binding, const Buffer& buffer, uint64_t bytesEach,
-                            uint32_t count);
+    // An array of buffers that are pieces of one: element i is piece i of `bytesEach` bytes,
+    // the last one cut where the buffer ends.
+    void bindBuffers(const Binding& binding, const Buffer& buffer, uint64_t bytesEach);
 
     void dispatch(VkCommandBuffer commands, const void* pushConstants, uint32_t groups) const;
 

@@ -42,12 +42,13 @@ void Device::createDevice() {
     vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
     vulkan12.bufferDeviceAddress = VK_TRUE;
     vulkan12.scalarBlockLayout = VK_TRUE;
-    vulkan12.descriptorIndexing = VK_FALSE;
     vulkan12.shaderUniformBufferArrayNonUniformIndexing = VK_TRUE;
+    vulkan12.shaderStorageBufferArrayNonUniformIndexing = VK_TRUE;
     vulkan12.pNext = &acceleration;
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.features.shaderUniformBufferArrayDynamicIndexing = VK_TRUE;
+    features.features.shaderStorageBufferArrayDynamicIndexing = VK_TRUE;
     features.pNext = &vulkan12;
 
     const char* extensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
@@ -91,6 +92,7 @@ void Device::queryLimits() {
     vkGetPhysicalDeviceProperties2(description_.handle, &properties);
     const VkPhysicalDeviceLimits& all = properties.properties.limits;
     limits_.uniformBufferRange = all.maxUniformBufferRange;
+    limits_.storageBufferRange = all.maxStorageBufferRange;
     limits_.uniformBuffersPerStage = all.maxPerStageDescriptorUniformBuffers;
     limits_.uniformBuffersPerSet = all.maxDescriptorSetUniformBuffers;
     limits_.resourcesPerStage = all.maxPerStageResources;
@@ -99,7 +101,6 @@ void Device::queryLimits() {
     limits_.accelerationPrimitives = acceleration.maxPrimitiveCount;
     limits_.scratchAlignment =
         std::max(1u, acceleration.minAccelerationStructureScratchOffsetAlignment);
-    limits_.uniformAlignment = std::max<VkDeviceSize>(1, all.minUniformBufferOffsetAlignment);
     limits_.nanosecondsPerTick = description_.timestampBits > 0 ? all.timestampPeriod : 0;
 }
 

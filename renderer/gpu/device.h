@@ -15,6 +15,7 @@ namespace nightcity::gpu {
 
 struct DeviceLimits {
     uint32_t uniformBufferRange = 0;       // bytes of one uniform buffer
+    uint32_t storageBufferRange = 0;       // bytes of one storage buffer
     uint32_t uniformBuffersPerStage = 0;   // descriptors
     uint32_t uniformBuffersPerSet = 0;
     uint32_t resourcesPerStage = 0;
@@ -22,7 +23,6 @@ struct DeviceLimits {
     uint64_t allocationBytes = 0;          // of one allocation
     uint64_t accelerationPrimitives = 0;   // of one bottom-level structure
     uint32_t scratchAlignment = 1;         // bytes
-    uint64_t uniformAlignment = 1;         // bytes
     double nanosecondsPerTick = 0;         // 0: no timestamps
 };
 

@@ -75,6 +75,10 @@ DeviceFeatures queryFeatures(VkPhysicalDevice device) {
         all.features.shaderUniformBufferArrayDynamicIndexing == VK_TRUE;
     features.uniformArrayNonUniformIndexing =
         vulkan12.shaderUniformBufferArrayNonUniformIndexing == VK_TRUE;
+    features.storageArrayDynamicIndexing =
+        all.features.shaderStorageBufferArrayDynamicIndexing == VK_TRUE;
+    features.storageArrayNonUniformIndexing =
+        vulkan12.shaderStorageBufferArrayNonUniformIndexing == VK_TRUE;
     return features;
 }
 
@@ -182,6 +186,8 @@ std::vector<std::string> DeviceDescription::missing() const {
     need(features.scalarBlockLayout, "scalarBlockLayout");
     need(features.uniformArrayDynamicIndexing, "shaderUniformBufferArrayDynamicIndexing");
     need(features.uniformArrayNonUniformIndexing, "shaderUniformBufferArrayNonUniformIndexing");
+    need(features.storageArrayDynamicIndexing, "shaderStorageBufferArrayDynamicIndexing");
+    need(features.storageArrayNonUniformIndexing, "shaderStorageBufferArrayNonUniformIndexing");
     need(features.computeQueue, "a queue with compute");
     need(workGroupInvocations >= kWorkGroup, "maxComputeWorkGroupInvocations of 256");
     return lacks;

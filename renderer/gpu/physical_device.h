@@ -23,6 +23,8 @@ struct DeviceFeatures {
     bool scalarBlockLayout = false;
     bool uniformArrayDynamicIndexing = false;
     bool uniformArrayNonUniformIndexing = false;
+    bool storageArrayDynamicIndexing = false;
+    bool storageArrayNonUniformIndexing = false;
     bool computeQueue = false;
 };
 

@@ -72,7 +72,7 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
 }
 
 void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderSettings& settings) {
-    const PipelineChoice choice{settings.marchOrder, scene.lightStorage(), settings.media};
+    const PipelineChoice choice{settings.marchOrder, scene.lights().pages(), settings.media};
     if (!pipelines_ || pipelines_->choice != choice) {
         pipelines_ = std::make_unique<PassPipelines>(device_, choice);
         bound_ = false;

@@ -3,11 +3,8 @@
 #include "passes/gpu_scene.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <span>
 
-#include "errors.h"
 #include "scene/facades.h"
 
 namespace nightcity {
@@ -15,7 +12,6 @@ namespace {
 
 constexpr VkBufferUsageFlags kBuildInput =
     VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
-constexpr std::uint32_t kLargestPageBytes = 65536;
 
 // A device may place a box by a rounded ray; the exact test is the shader's, so the box that
 // the device tests is grown by more than the rounding of any ray within kilometres. m.
@@ -171,55 +167,14 @@ void GpuScene::syncWindowState(const FlatScene& scene, int frame,
                                const RenderSettings& settings) {
     const std::vector<std::uint8_t> on = scene.windowsOn(frame);
     const std::vector<std::uint32_t> bits = stateBits(on);
-    const PackedLights lights = packLights(scene, on, settings.lightCap);
-    chooseStorage(lights, settings.lightStorage);
-
-    const auto fill = [this](gpu::Buffer& buffer, const char* name, const void* data,
-                             std::uint64_t bytes, std::uint64_t room) {
-        if (!buffer || buffer.bytes() < room) {
-            buffer = {};
-            buffer = gpu::Buffer(device_, name, room, gpu::MemoryKind::device,
-                                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-        }
-        commands_.upload(buffer, data, bytes);
-        return addressWords(buffer.address());
-    };
-    contents_.windowOn = fill(windowOn_, "window state", bits.data(), bits.size() * 4,
-                              bits.size() * 4);
-    contents_.marchMedia =
-        fill(marchMedia_, "march media", lights.media.data(),
-             lights.media.size() * sizeof(MarchMedium), lights.media.size() * sizeof(MarchMedium));
-    const std::uint64_t pages =
-        std::max<std::uint64_t>(1, (lights.capacity * 16 + pageBytes() - 1) / pageBytes());
-    contents_.lightEntries = fill(lightEntries_, "light lists", lights.entries.data(),
-                                  lights.entries.size() * 16, pages * pageBytes());
-    contents_.colour = lights.colour;
+    if (!windowOn_ || windowOn_.bytes() < bits.size() * 4) {
+        windowOn_ = gpu::Buffer(device_, "window state", bits.size() * 4, gpu::MemoryKind::device);
+    }
+    commands_.upload(windowOn_, bits.data(), bits.size() * 4);
+    lights_.upload(packLights(scene, on, settings.lightCap), settings.lightStorage);
+    contents_.windowOn = addressWords(windowOn_.address());
+    contents_.marchMedia = addressWords(lights_.mediaAddress());
     writeTable();
-}
-
-void GpuScene::chooseStorage(const PackedLights& lights, LightStorage wanted) {
-    const gpu::DeviceLimits& limits = device_.limits();
-    notes_.clear();
-    choice_.storage = wanted;
-    choice_.oneColour = lights.oneColour;
-    choice_.pageEntries =
-        std::bit_floor(std::min(kLargestPageBytes, limits.uniformBufferRange)) / 16;
-    choice_.pageCount = 1;
-    if (wanted == LightStorage::storage) {
-        return;
-    }
-    const std::uint64_t pages = std::max<std::uint64_t>(
-        1, (lights.capacity + choice_.pageEntries - 1) / choice_.pageEntries);
-    const std::uint64_t most = std::min({limits.uniformBuffersPerStage,
-                                         limits.uniformBuffersPerSet, limits.resourcesPerStage});
-    if (pages > most) {
-        choice_.storage = LightStorage::storage;
-        notes_.push_back("the light lists need " + std::to_string(pages) +
-                         " pages of uniform buffers, but " + device_.name() + " binds at most " +
-                         std::to_string(most) + ": they are read from a storage buffer instead");
-        return;
-    }
-    choice_.pageCount = static_cast<std::uint32_t>(pages);
 }
 
 void GpuScene::writeTable() {

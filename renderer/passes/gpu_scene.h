@@ -6,33 +6,23 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
+#include <span>
 #include <vector>
 
 #include "dispatch.h"
 #include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
-#include "passes/light_lists.h"
+#include "passes/light_buffers.h"
 #include "scene/flat_scene.h"
 #include "settings.h"
 
 namespace nightcity {
 
-// Where the march finds its light lists.
-struct LightStorageChoice {
-    LightStorage storage = LightStorage::uniform;
-    std::uint32_t pageEntries = 0;  // vec4 a page, a power of two
-    std::uint32_t pageCount = 1;    // bound; 1 with storage, where the page is never read
-    bool oneColour = false;
-
-    bool operator==(const LightStorageChoice&) const = default;
-};
-
 class GpuScene {
 public:
-    GpuScene(gpu::Device& device, gpu::Commands& commands) : device_(device), commands_(commands) {}
+    GpuScene(gpu::Device& device, gpu::Commands& commands)
+        : device_(device), commands_(commands), lights_(device, commands) {}
 
     // Triangles, facades, materials, media boxes. Throws DeviceError where a limit is passed.
     void syncGeometry(const FlatScene& scene);
@@ -41,10 +31,7 @@ public:
 
     VkAccelerationStructureKHR structure() const { return topLevel_.get(); }
     VkDeviceAddress tableAddress() const { return table_.address(); }
-    const LightStorageChoice& lightStorage() const { return choice_; }
-    const gpu::Buffer& lightEntries() const { return lightEntries_; }
-    std::uint64_t pageBytes() const { return std::uint64_t{choice_.pageEntries} * 16; }
-    std::vector<std::string> notes() const { return notes_; }
+    const LightBuffers& lights() const { return lights_; }
 
 private:
     template <typename T>
@@ -54,7 +41,6 @@ private:
     void buildMedia(const FlatScene& scene);
     void buildLoosePanes(const FlatScene& scene);
     void buildTopLevel();
-    void chooseStorage(const PackedLights& lights, LightStorage wanted);
     void writeTable();
 
     gpu::Device& device_;
@@ -66,12 +52,9 @@ private:
     gpu::AccelerationStructure loosePanes_;
     gpu::AccelerationStructure topLevel_;
     gpu::Buffer windowOn_;
-    gpu::Buffer marchMedia_;
-    gpu::Buffer lightEntries_;               // whole pages
+    LightBuffers lights_;
     gpu::Buffer table_;
     SceneTable contents_{};
-    LightStorageChoice choice_;
-    std::vector<std::string> notes_;
 };
 
 // The two words of an address as the shaders take them.

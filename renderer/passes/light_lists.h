@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The light lists of the media boxes as the march reads them: only windows that
-// are on, cut at the cap, positions relative to the box. No Vulkan.
+// The light lists of the media boxes as the march reads them (dispatch.h): only
+// windows that are on, cut at the cap, in runs of equal emission, positions
+// relative to the box. No Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +19,11 @@
 namespace nightcity {
 
 struct PackedLights {
-    std::vector<glm::vec4> entries;   // one or two a light, see dispatch.h
-    std::vector<MarchMedium> media;   // one a media box of the scene
-    bool oneColour = false;           // every listed window, on or off, has `colour`
-    glm::vec3 colour{1};
-    // Room for the lists with every window on: what buffers are sized by, so that they and
-    // the pipelines stay as they are while windows go on and off.
-    std::uint64_t capacity = 0;       // entries
+    std::vector<glm::vec4> entries;  // runs and lights
+    std::vector<MarchMedium> media;  // one a media box of the scene
+    // Entries that any state of the windows can need: what buffers and pages are sized by, so
+    // that they and the pipelines stay as they are while windows go on and off.
+    std::uint64_t capacity = 0;
 };
 
 // `windowOn`: one byte a window. `cap`: at most so many lit windows a box, by ascending index.

@@ -28,13 +28,12 @@ gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
 }
 
 std::vector<std::uint32_t> marchConstants(const PipelineChoice& choice) {
-    std::vector<std::uint32_t> constants(5);
+    std::vector<std::uint32_t> constants(4);
     constants[NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE] = choice.order == MarchOrder::lights ? 1 : 0;
     constants[NIGHTCITY_CONSTANT_UNIFORM_PAGES] =
         choice.lights.storage == LightStorage::uniform ? 1 : 0;
-    constants[NIGHTCITY_CONSTANT_PAGE_COUNT] = choice.lights.pageCount;
-    constants[NIGHTCITY_CONSTANT_PAGE_ENTRIES] = choice.lights.pageEntries;
-    constants[NIGHTCITY_CONSTANT_ONE_COLOUR] = choice.lights.oneColour ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_PAGE_COUNT] = choice.lights.count;
+    constants[NIGHTCITY_CONSTANT_PAGE_ENTRIES] = choice.lights.entriesEach;
     return constants;
 }
 
@@ -44,9 +43,12 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
     : choice(settings) {
     surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructure});
     traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
+    const bool uniform = choice.lights.storage == LightStorage::uniform;
     march = makePipeline(device, "march", kMarchSpirv,
-                         {{NIGHTCITY_BINDING_LIGHT_PAGES, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                           choice.lights.pageCount}},
+                         {{NIGHTCITY_BINDING_UNIFORM_PAGES, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                           uniform ? choice.lights.count : 1},
+                          {NIGHTCITY_BINDING_STORAGE_PAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                           uniform ? 1 : choice.lights.count}},
                          marchConstants(choice));
     accumulate = makePipeline(device, "accumulate", kAccumulateSpirv, {},
                               {choice.media ? 1u : 0u});
@@ -55,8 +57,7 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
 void PassPipelines::bind(const GpuScene& scene) {
     surface.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
     traverse.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
-    march.bindUniformBuffers(NIGHTCITY_BINDING_LIGHT_PAGES, scene.lightEntries(),
-                             scene.pageBytes(), choice.lights.pageCount);
+    scene.lights().bind(march);
 }
 
 }  // namespace nightcity

@@ -13,7 +13,7 @@ namespace nightcity {
 // Settings that pipelines are specialised to.
 struct PipelineChoice {
     MarchOrder order = MarchOrder::lights;
-    LightStorageChoice lights;
+    LightPages lights;
     bool media = true;
 
     bool operator==(const PipelineChoice&) const = default;

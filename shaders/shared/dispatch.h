@@ -16,7 +16,8 @@ NIGHTCITY_CONST uint kSegmentSlots = 8;  // segments a ray that one traversal ha
 
 // Bindings of set 0.
 #define NIGHTCITY_BINDING_STRUCTURE 0
-#define NIGHTCITY_BINDING_LIGHT_PAGES 1
+#define NIGHTCITY_BINDING_UNIFORM_PAGES 0  // of march.comp
+#define NIGHTCITY_BINDING_STORAGE_PAGES 1
 
 // Instances of the top-level structure, by what their primitives are.
 NIGHTCITY_CONST uint kMaskTriangles = 1u;    // opaque triangles
@@ -27,23 +28,28 @@ NIGHTCITY_CONST uint kMaskLoosePanes = 4u;   // emitters that stand on no facade
 #define NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE 0  // 1: light loop outside the steps
 #define NIGHTCITY_CONSTANT_UNIFORM_PAGES 1   // 1: pages of uniform buffers, 0: storage
 #define NIGHTCITY_CONSTANT_PAGE_COUNT 2
-#define NIGHTCITY_CONSTANT_PAGE_ENTRIES 3    // vec4 a page, a power of two
-#define NIGHTCITY_CONSTANT_ONE_COLOUR 4      // 1: every lit window has the same colour
+#define NIGHTCITY_CONSTANT_PAGE_ENTRIES 3    // LightEntry a page, a power of two
 // Specialization constant of accumulate.comp.
 #define NIGHTCITY_CONSTANT_MEDIA 0           // 0: surface frame
 
-// A media box as the march reads it. Its lights are entries firstLight up to
-// firstLight + lightCount of the packed light lists.
+// A media box as the march reads it.
 struct MarchMedium {
     float extinction;  // 1/m
     float scattering;  // 1/m, extinction x albedo
-    uint firstLight;
+    uint firstEntry;   // of its light list
+    uint entryCount;   // runs and lights together
     uint lightCount;
 };
 
-// Packed light lists: one or two vec4 an entry.
-//   one colour:   xyz centre relative to the lower corner of the box (m), w power (W)
-//   many colours: xyz as above, w 0; then rgb power x colour (W)
+// The light list of a box is a sequence of runs, each of lights that emit the
+// same: one entry for the run, then one a light. So an evaluation reads three
+// numbers, whatever the colours.
+//   run:   emission per channel (W), number of lights
+//   light: centre relative to the lower corner of the box (m), 0
+NIGHTCITY_CONST uint kLongestRun = 1u << 20;  // lights; exact in a float
+
+// Of the kind of page that is not used, one this large is bound and never read.
+NIGHTCITY_CONST uint kUnusedPageEntries = 1024u;
 
 struct SceneTable {
     uvec2 positions;       // vec3
@@ -55,7 +61,6 @@ struct SceneTable {
     uvec2 windowOn;        // uint, bit i & 31 of word i >> 5
     uvec2 mediaBoxes;      // MediaBox
     uvec2 marchMedia;      // MarchMedium, one a media box
-    uvec2 lightEntries;    // vec4, packed light lists
     uvec2 facades;         // Facade
     uvec2 cellStart;       // uint
     uvec2 cellWindow;      // uint
@@ -65,7 +70,6 @@ struct SceneTable {
     uint groundMaterial;   // into Material, or kNone without a ground
     uint surfaceMask;      // kMaskTriangles and kMaskLoosePanes, where there are any
     uint mediaMask;        // kMaskMedia, where there is any
-    vec3 colour;           // of every lit window, where they share one
 };
 
 struct FrameTable {
