@@ -16,10 +16,13 @@ from nightcity.export.findings import Item
 from nightcity.export.materials import Materials, Surface
 from nightcity.export.mesh import LocalMesh, read_mesh
 from nightcity.export.open_stage import Source
+from nightcity.export.records import NONE
 from nightcity.progress import Progress
 
-# Also below the classes that serve as prototypes.
-_SUBSETS = Usd.TraverseInstanceProxies(Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimIsDefined)
+# Also below the classes and overs that hold prototypes.
+_SUBSETS = Usd.TraverseInstanceProxies(
+    Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier
+)
 _CHUNK = 4096  # prims whose bindings USD resolves in one call
 
 
@@ -144,6 +147,11 @@ class _Parts:
     def add(self, item: Item, mesh: LocalMesh, face_material: NDArray[np.int64]) -> None:
         """Every copy of one prim."""
         copies, points = len(item.matrices), len(mesh.points)
+        if self.count + copies * points > NONE:
+            raise SceneError(
+                f"{item.prim.GetPath()}: with its {copies} instances the scene has more than"
+                f" {NONE} vertices; a flat scene holds every instance, so leave some out"
+            )
         matrices = item.matrices
         world = mesh.points @ matrices[:, :3, :3] + matrices[:, None, 3, :3]
         # A mirrored copy turns its triangles over, so that outside stays outside.

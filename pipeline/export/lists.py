@@ -108,8 +108,14 @@ def _refuse_unknown(media: Media, box: IntArray, ids: IntArray, rows: IntArray) 
 
 
 def _unique_pairs(width: int, box: IntArray, row: IntArray) -> tuple[IntArray, IntArray]:
-    keys = np.unique(box * max(width, 1) + row)
+    keys = _ascending(box * max(width, 1) + row)
     return keys // max(width, 1), keys % max(width, 1)
+
+
+def _ascending(keys: IntArray) -> IntArray:
+    """Without repeats. Sorting is several times faster here than the hashing of np.unique."""
+    keys = np.sort(keys)
+    return keys[np.append(True, np.diff(keys) != 0)[: len(keys)]]
 
 
 def _report_stale(
@@ -127,7 +133,7 @@ def _report_stale(
     known = authored[1] != _HIDDEN
     width = len(table) + 1  # one more for absent windows
     ours = box * width + row
-    theirs = np.unique(authored[0][known] * width + authored[1][known] % width)
+    theirs = _ascending(authored[0][known] * width + authored[1][known] % width)
     differs = np.zeros(len(media), dtype=bool)
     differs[np.setxor1d(ours, theirs, assume_unique=True) // width] = True
     for rows, what in (

@@ -4,10 +4,15 @@
 
 from __future__ import annotations
 
+import contextlib
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
 import numpy as np
 import OpenImageIO
 from numpy.typing import NDArray
-from pxr import Sdf
+from pxr import Ar, Sdf
 
 from nightcity.errors import SceneError
 
@@ -20,11 +25,12 @@ def read_texels(asset: Sdf.AssetPath, space: str, where: str) -> NDArray[np.uint
     """
     if not asset.resolvedPath:
         raise SceneError(f"{where}: there is no texture file {asset.path or '(empty name)'}")
-    image = OpenImageIO.ImageBuf(asset.resolvedPath)
-    if image.has_error or not image.read():
-        raise SceneError(
-            f"{where}: OpenImageIO cannot read the texture {asset.path}: {image.geterror()}"
-        )
+    with _on_disk(asset.resolvedPath) as path:
+        image = OpenImageIO.ImageBuf(path)
+        if image.has_error or not image.read():
+            raise SceneError(
+                f"{where}: OpenImageIO cannot read the texture {asset.path}: {image.geterror()}"
+            )
     spec = image.spec()
     linear = space == "raw" or (
         space != "sRGB" and (spec.format.basetype != OpenImageIO.UINT8 or spec.nchannels < 3)
@@ -40,6 +46,20 @@ def read_texels(asset: Sdf.AssetPath, space: str, where: str) -> NDArray[np.uint
     texels = np.full((spec.height, spec.width, 4), 255, dtype=np.uint8)
     texels[:, :, :3] = np.rint(colour * 255)
     return texels[::-1]
+
+
+@contextlib.contextmanager
+def _on_disk(path: str) -> Iterator[str]:
+    """A file that OpenImageIO can open; one inside a package (.usdz) is unpacked for a while."""
+    if not Ar.IsPackageRelativePath(path):
+        yield path
+        return
+    content = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path)).GetBuffer()
+    suffix = Path(Ar.SplitPackageRelativePathInner(path)[1]).suffix
+    with tempfile.NamedTemporaryFile(suffix=suffix) as file:
+        file.write(content)
+        file.flush()
+        yield file.name
 
 
 def linear_from_srgb(colour: NDArray[np.float64]) -> NDArray[np.float64]:

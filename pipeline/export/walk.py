@@ -18,9 +18,9 @@ from nightcity.export.timeline import ALWAYS, Timeline
 from nightcity.progress import Progress
 
 _CHILDREN = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
-# Prototypes may be classes, so that they are drawn nowhere else.
+# Prototypes often stand below a class or an over, so that they are drawn nowhere else.
 _PROTOTYPE_CHILDREN = Usd.TraverseInstanceProxies(
-    Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimIsDefined
+    Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier
 )
 _RENDERED = {"default", "render"}
 # The type that each of our schemas must be applied to.

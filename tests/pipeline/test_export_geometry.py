@@ -11,9 +11,10 @@ import OpenImageIO
 import pytest
 from export_maker import SQUARE, Scene, add_building, add_mesh, export, new_stage
 from numpy.testing import assert_allclose
-from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade
+from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade, UsdUtils
 
 from nightcity.errors import SceneError
+from nightcity.export.export_stage import export_stage
 from nightcity.export.triangulate import triangulate
 
 POINTS, FACES = SQUARE
@@ -314,6 +315,14 @@ def test_a_texture(tmp_path: Path) -> None:
         (0, 0, 0, 0), (1, 0, 3, 0), (1, 1, 3, 2), (0, 1, 0, 2),
         (1, 0, 9, 9), (2, 0, 3, 0), (2, 1, 3, 2), (1, 1, 9, 9),
     }  # fmt: skip
+
+
+def test_a_texture_in_a_package(tmp_path: Path) -> None:
+    plain = export(textured_square(tmp_path), tmp_path / "s")
+    package = tmp_path / "a.usdz"
+    assert UsdUtils.CreateNewUsdzPackage(str(tmp_path / "a.usda"), str(package))
+    export_stage(package, tmp_path / "t")
+    assert Scene(tmp_path / "t").bytes == plain.bytes
 
 
 def test_a_linear_texture_is_encoded(tmp_path: Path) -> None:

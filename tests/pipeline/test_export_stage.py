@@ -21,7 +21,7 @@ from export_maker import (
     new_stage,
 )
 from numpy.testing import assert_allclose
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdShade, Vt
 
 from nightcity.errors import NightcityError, SceneError, UsageError
 from nightcity.export.export_stage import export_stage
@@ -205,7 +205,14 @@ def building_layer(path: Path) -> None:
     stage = new_stage(path)
     add_building(stage, "/Block", 4)
     stage.SetDefaultPrim(stage.GetPrimAtPath("/Block"))
-    UsdGeom.Cube.Define(stage, "/Block/Shell").CreateSizeAttr(4.0)
+    shell = UsdGeom.Cube.Define(stage, "/Block/Shell")
+    shell.CreateSizeAttr(4.0)
+    paint = UsdShade.Material.Define(stage, "/Block/Looks/Paint")
+    shader = UsdShade.Shader.Define(stage, "/Block/Looks/Paint/Surface")
+    shader.CreateIdAttr("UsdPreviewSurface")
+    shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set((0.25, 0.5, 1))
+    paint.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+    UsdShade.MaterialBindingAPI.Apply(shell.GetPrim()).Bind(paint)
     add_windows(stage, "/Block/Windows", [(2.01, 0, 3), (-2.01, 0, 3)], ids=[8, 9])
     add_box(stage, "/Block/Haze", 6, (-5, -5, 2), (5, 5, 4), windowLights=[8, 9])
     stage.Save()
@@ -231,6 +238,7 @@ def test_references_payloads_and_native_instances(tmp_path: Path, how: str) -> N
     assert scene["window"]["window_id"].tolist() == [8, 9, 10, 11]
     assert scene["media_box"]["media_id"].tolist() == [6, 7]
     assert scene.lists() == {6: [8, 9], 7: [10, 11]}
+    assert scene["material"]["reflectance"].tolist() == [[0.25, 0.5, 1]]
 
 
 def test_two_windows_files_with_one_media_id(tmp_path: Path) -> None:
@@ -244,11 +252,12 @@ def test_two_windows_files_with_one_media_id(tmp_path: Path) -> None:
         export(stage, tmp_path / "s")
 
 
-def test_an_instancer_of_buildings(tmp_path: Path) -> None:
-    """Prototypes below a class, with buildings, windows, haze and lights; one instance hidden."""
+@pytest.mark.parametrize("holder", [Sdf.SpecifierClass, Sdf.SpecifierOver])
+def test_an_instancer_of_buildings(tmp_path: Path, holder: Sdf.Specifier) -> None:
+    """Prototypes that show nowhere else, with buildings, windows, haze and lights; one instance
+    is hidden."""
     building_layer(tmp_path / "block.usda")
     stage = new_stage(tmp_path / "a.usda")
-    stage.CreateClassPrim("/Prototypes")
     block = UsdGeom.Xform.Define(stage, "/Prototypes/Block")
     block.GetPrim().GetReferences().AddReference("block.usda")
     block.AddTranslateOp().Set((0, 0, 2))  # the prototype's own
@@ -260,12 +269,14 @@ def test_an_instancer_of_buildings(tmp_path: Path) -> None:
     instancer.CreateIdsAttr([1, 2, 3])
     instancer.CreateInvisibleIdsAttr(Vt.Int64Array([2]))
     instancer.AddTranslateOp().Set((0, 7, 0))
+    stage.GetRootLayer().GetPrimAtPath("/Prototypes").specifier = holder
     scene = export(stage, tmp_path / "s")
     assert scene["building"].tolist() == [(0, 12, 0, 2, 4), (12, 12, 2, 2, 4)]
     expected = [(2.01, 7, 5), (-2.01, 7, 5), (102.01, 7, 5), (97.99, 7, 5), (0, 7, 2), (100, 7, 2)]
     assert_allclose(scene["window"]["centre"], expected)
     assert len(set(scene["window"]["window_id"].tolist())) == 6
     assert scene["window"]["window_id"][:2].tolist() == [8, 9]
+    assert scene["material"]["reflectance"].tolist() == [[0.25, 0.5, 1]]
     assert scene["media_box"]["media_id"].tolist() == [6, 7]
     assert_allclose(scene["media_box"]["lo"], [(-5, 2, 4), (95, 2, 4)])
     assert_allclose(scene.corners()[12:].mean(axis=(0, 1)), (100, 7, 2), atol=1e-5)
