@@ -29,6 +29,10 @@ float atStep(MarchSegment segment, vec3 startToLight, float midpoint) {
                                    fma(midpoint, segment.stepDepth, segment.opticalDepth));
 }
 
+uint runLength(vec4 run) {
+    return floatBitsToUint(run.w) & kRunLengthMask;
+}
+
 // The sum over the steps for one light.
 float overSteps(MarchSegment segment, vec3 startToLight, uint steps) {
     float sum = 0.0;
@@ -52,7 +56,7 @@ vec3 marchLightsOutside(MarchSegment segment, uint steps) {
     vec3 sum = vec3(0.0);
     for (uint entry = segment.firstEntry; entry < segment.endEntry;) {
         vec4 run = lightEntry(entry++);
-        uint end = entry + uint(run.w);
+        uint end = entry + runLength(run);
         float fluence = 0.0;
         for (; entry < end; ++entry) {
             fluence += overSteps(segment, lightEntry(entry).xyz - segment.start, steps);
@@ -71,7 +75,7 @@ vec3 marchStepsOutside(MarchSegment segment, uint steps) {
         float opticalDepth = fma(midpoint, segment.stepDepth, segment.opticalDepth);
         for (uint entry = segment.firstEntry; entry < segment.endEntry;) {
             vec4 run = lightEntry(entry++);
-            uint end = entry + uint(run.w);
+            uint end = entry + runLength(run);
             float fluence = 0.0;
             for (; entry < end; ++entry) {
                 fluence += attenuatedInverseSquare(lightEntry(entry).xyz - position,

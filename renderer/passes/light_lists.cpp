@@ -81,7 +81,7 @@ private:
             last = box;
         }
         const std::uint64_t lights = std::min(scene_.mediaBoxes[box].lightCount, cap_);
-        return lights + std::min<std::uint64_t>(emissions + lights / kLongestRun, lights);
+        return lights + std::min<std::uint64_t>(emissions + lights / kRunLengthMask, lights);
     }
 
     void packBox(const MediaBox& box) {
@@ -109,11 +109,12 @@ private:
         const std::uint32_t emission = emissions_.ofWindow[listed_[first]];
         std::size_t end = first;
         while (end < listed_.size() && emissions_.ofWindow[listed_[end]] == emission &&
-               end - first < kLongestRun) {
+               end - first < kRunLengthMask) {
             ++end;
         }
+        const auto length = static_cast<std::uint32_t>(end - first);
         lights_.entries.emplace_back(emissions_.watts[emission],
-                                     static_cast<float>(end - first));
+                                     std::bit_cast<float>(kRunLengthExponent | length));
         for (std::size_t i = first; i < end; ++i) {
             const glm::dvec3 centre(scene_.windows[listed_[i]].centre);
             lights_.entries.emplace_back(glm::vec3(centre - glm::dvec3(box.lo)), 0.0f);

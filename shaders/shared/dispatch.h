@@ -44,9 +44,11 @@ struct MarchMedium {
 // The light list of a box is a sequence of runs, each of lights that emit the
 // same: one entry for the run, then one a light. So an evaluation reads three
 // numbers, whatever the colours.
-//   run:   emission per channel (W), number of lights
+//   run:   emission per channel (W), number of lights in the mantissa of a float from 1 to 2:
+//          read in two bit operations, and no denormal that a device may flush
 //   light: centre relative to the lower corner of the box (m), 0
-NIGHTCITY_CONST uint kLongestRun = 1u << 20;  // lights; exact in a float
+NIGHTCITY_CONST uint kRunLengthMask = 0x7fffffu;  // lights of the longest run, and the mantissa
+NIGHTCITY_CONST uint kRunLengthExponent = 0x3f800000u;
 
 // Of the kind of page that is not used, one this large is bound and never read.
 NIGHTCITY_CONST uint kUnusedPageEntries = 1024u;

@@ -16,17 +16,7 @@ const float kRounding = 12582912.0;
 const float kLargestExponent = 87.0;
 
 float expNegative(float x) {
-    float clamped = min(x, kLargestExponent);
-    precise float shifted = fma(clamped, -kLog2E, kRounding);
-    precise float whole = shifted - kRounding;
-    float part = fma(clamped, -kLog2E, -whole);  // -0.5 to 0.5
-    // 2^part: minimax of degree 5 with value 1 at 0, relative error 9.2e-8 at most.
-    float power = fma(part, 1.3264727e-3, 9.6715126e-3);
-    power = fma(part, power, 5.5507337e-2);
-    power = fma(part, power, 2.4022242e-1);
-    power = fma(part, power, 6.9314698e-1);
-    power = fma(part, power, 1.0);
-    return uintBitsToFloat(floatBitsToUint(power) + (floatBitsToUint(shifted) << 23));
+    return exp(-x);
 }
 
 #endif

@@ -17,10 +17,8 @@ const float kSmallestDistance2 = 1e-12;
 // 4 pi W gives as fluence at `toLight` m from it, seen through haze of
 // `opticalDepth` before the eye.
 float attenuatedInverseSquare(vec3 toLight, float extinction, float opticalDepth) {
-    float distance2 = fma(toLight.x, toLight.x, kSmallestDistance2);
-    distance2 = fma(toLight.y, toLight.y, distance2);
-    distance2 = fma(toLight.z, toLight.z, distance2);
-    return expNegative(fma(extinction, sqrt(distance2), opticalDepth)) / distance2;
+    float distance2 = dot(toLight, toLight) + kSmallestDistance2;
+    return expNegative(extinction * sqrt(distance2) + opticalDepth) / distance2;
 }
 
 // The factor that turns sums over steps of power x attenuatedInverseSquare into
