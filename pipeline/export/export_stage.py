@@ -106,7 +106,7 @@ def _flatten(source: Source, findings: Findings, lists: str) -> tuple[dict[str, 
     materials = Materials(source)
     geometry = read_geometry(source, items["geometry"], materials)
     ground = read_ground(source, items["ground"], materials)
-    media = read_media(source, items["media"])
+    media = read_media(source, items["media"], ground and ground.height)
     table, original_ids, hidden_ids = _read_emitters(source, findings)
     offsets, rows = read_lists(source, media, table, original_ids, hidden_ids, lists)
     origin = scene_origin(geometry, table, media)

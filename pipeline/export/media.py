@@ -49,9 +49,13 @@ class Media:
         return str(self.items[self.owner[row]].prim.GetPath())
 
 
-def read_media(source: Source, items: Sequence[Item]) -> Media:
-    """Every media box. Raises SceneError naming the prim of a box that is rotated, flat, out of
-    range, numbered like another or overlaps one."""
+def read_media(source: Source, items: Sequence[Item], ground: float | None = None) -> Media:
+    """Every media box; one that stands on the ground, at height ``ground`` (m), starts there to
+    the bit, as the renderer expects.
+
+    Raises SceneError naming the prim of a box that is rotated, flat, out of range, numbered like
+    another or overlaps one.
+    """
     numbers = np.empty((len(items), len(_NUMBERS)))
     ids = np.empty(len(items), dtype=np.int64)
     with Progress("reading media boxes", len(items)) as progress:
@@ -72,6 +76,9 @@ def read_media(source: Source, items: Sequence[Item]) -> Media:
     )  # fmt: skip
     _check_values(media)
     media.lo, media.hi = _corners(media, matrices, size)
+    if ground is not None:
+        for corners in (media.lo, media.hi):
+            corners[np.abs(corners[:, 2] - ground) < SNAP, 2] = ground
     _number(source, media)
     _check_overlap(media)
     return media

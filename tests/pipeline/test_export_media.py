@@ -8,7 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from export_maker import add_box, add_building, add_windows, export, new_stage
+from export_maker import (
+    SQUARE,
+    add_box,
+    add_building,
+    add_mesh,
+    add_windows,
+    export,
+    new_stage,
+)
 from numpy.testing import assert_allclose
 from pxr import Usd, UsdGeom, UsdLux, Vt
 
@@ -116,6 +124,16 @@ def test_faces_that_almost_touch_become_equal(tmp_path: Path, gap: float) -> Non
     boxes = export(stage, tmp_path / "s")["media_box"]
     assert boxes["hi"][0, 0] == boxes["lo"][1, 0]
     assert_allclose(boxes["hi"][0, 0], 5, atol=1e-4)
+
+
+def test_a_box_on_the_ground_starts_there_to_the_bit(tmp_path: Path) -> None:
+    stage = new_stage(tmp_path / "a.usda")
+    ground = add_mesh(stage, "/G", [(x, y, 0.1) for x, y, _ in SQUARE[0]], SQUARE[1])
+    ground.GetPrim().ApplyAPI("NightcityGroundAPI")
+    add_box(stage, "/M", 0, (0, 0, 0.10003), (5, 5, 5))
+    scene = export(stage, tmp_path / "s")
+    height = scene.manifest["ground"]["height"]
+    assert float(scene["media_box"]["lo"][0, 2]) == height == float(np.float32(0.1))
 
 
 def test_snapping_keeps_the_common_plane_and_does_not_drift() -> None:
