@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "addresses.glsl"
+#include "primitives.glsl"
 #include "transport/exponential.glsl"
 
 layout(local_size_x = kGroupSize) in;
@@ -15,7 +15,7 @@ void keepCentre(uint index, SurfaceRecord record, int firstMediaId) {
     FloatArray(frameTable.depth).at[index] = record.depth;
     Vec3Array(frameTable.normal).at[index] = record.normal;
     FloatArray(frameTable.mediaId).at[index] = float(firstMediaId);
-    FloatArray(frameTable.materialId).at[index] = float(record.material);
+    FloatArray(frameTable.materialId).at[index] = float(materialOf(record.primitive));
 }
 
 void main() {
@@ -34,7 +34,7 @@ void main() {
         firstMediaId = progress.firstMediaId;
     }
     float weight = 1.0 / float(frameTable.sampleCount);
-    float alpha = record.normal == vec3(0.0) ? 1.0 - transmittance : 1.0;
+    float alpha = record.primitive == kNone ? 1.0 - transmittance : 1.0;
     vec3 surface = record.radiance * transmittance;
     vec4 sumSurface = vec4(surface, alpha) * weight;
     vec3 sumGlow = glow * weight;

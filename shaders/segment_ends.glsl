@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The ends of a segment about its box's corner, precisely: which plane ends it
-// is known from boxInterval; where the ray meets that plane is found again in
-// two floats. Neighbours that share a plane find the same end.
+// The ends of a segment about its box's corner, precisely: boxInterval says
+// whether a face, the camera or a surface ends it; where the ray meets the
+// plane is found again in two floats. Neighbours that share a face find the
+// same end.
 #ifndef NIGHTCITY_SHADERS_SEGMENT_ENDS_GLSL
 #define NIGHTCITY_SHADERS_SEGMENT_ENDS_GLSL
 
 #include "box_interval.glsl"
 #include "camera_ray.glsl"
+#include "primitives.glsl"
 
 TwoFloat planeDepth(PreciseRay ray, int axis, float plane) {
     return divide(subtract(TwoFloat(plane, 0.0), ray.origin[axis]), ray.direction[axis]);
@@ -36,18 +38,32 @@ TwoFloat pointAt(PreciseRay ray, int axis, float corner, TwoFloat depth) {
     return add(fromCorner, multiply(ray.direction[axis], depth));
 }
 
-// entry and exit come from boxInterval: entry 0 is the camera inside the box, an
-// exit before the box's own is a surface.
-Segment segmentBetween(PreciseRay ray, vec3 lo, vec3 hi, uint box, float entry, float exit) {
-    TwoFloat begin = TwoFloat(0.0, 0.0);
+// Where the ray meets the surface that float found at `depth`.
+TwoFloat surfaceDepth(PreciseRay ray, uint primitive, float depth) {
+    vec3 point, normal;
+    planeOf(primitive, point, normal);
+    TwoFloat distance = TwoFloat(0.0, 0.0);
+    TwoFloat speed = TwoFloat(0.0, 0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        TwoFloat component = TwoFloat(normal[axis], 0.0);
+        TwoFloat toPoint = subtract(TwoFloat(point[axis], 0.0), ray.origin[axis]);
+        distance = add(distance, multiply(toPoint, component));
+        speed = add(speed, multiply(ray.direction[axis], component));
+    }
+    TwoFloat precisely = divide(distance, speed);
+    // Along the surface the quotient is worthless, and no better than what was found.
+    return abs(precisely.hi - depth) <= 1e-3 * depth ? precisely : TwoFloat(depth, 0.0);
+}
+
+// entry and exit come from boxInterval with the surface's depth as the end.
+Segment segmentBetween(PreciseRay ray, vec3 lo, vec3 hi, uint box, float entry, float exit,
+                       SurfaceRecord surface) {
+    TwoFloat begin = TwoFloat(0.0, 0.0);  // the camera is inside
     if (entry > 0.0) {
         begin = boundaryDepth(ray, lo, hi, true);
     }
-    TwoFloat end = boundaryDepth(ray, lo, hi, false);
-    // A surface ends it where it lies before the box's end by more than rounding.
-    if (exit < end.hi * (1.0 - 1e-6)) {
-        end = TwoFloat(exit, 0.0);
-    }
+    TwoFloat end = exit == surface.depth ? surfaceDepth(ray, surface.primitive, exit)
+                                         : boundaryDepth(ray, lo, hi, false);
     float depths = max(toFloat(subtract(end, begin)), 0.0);
     Segment segment;
     segment.box = box;

@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "intersect.glsl"
+#include "primitives.glsl"
 #include "surface_shading.glsl"
 
 layout(local_size_x = kGroupSize) in;
@@ -19,15 +20,14 @@ void main() {
     Ray ray = cameraRay(pixelOf(push.firstPixel + index), push.sampleIndex);
     float ground = groundDepth(ray);
     TriangleHit hit = nearestTriangle(ray, ground);
-    SurfaceRecord record = SurfaceRecord(vec3(0.0), kFar, vec3(0.0), -1);
+    SurfaceRecord record = SurfaceRecord(vec3(0.0), kFar, vec3(0.0), kNone);
     if (hit.triangle != kNone) {
         record = shadeTriangle(ray, hit);
     } else if (ground < kFar) {
         record = shadeGround(ray, ground);
     }
     PaneHit loose = nearestLoosePane(ray, hit.depth);
-    bool paneInFront = record.material < 0 && record.depth <= loose.depth;
-    if (loose.window != kNone && !paneInFront) {
+    if (loose.window != kNone && (!isPane(record.primitive) || loose.depth < record.depth)) {
         record = shadePane(ray, loose);
     }
     SurfaceRecordArray(frameTable.surfaces).at[index] = record;

@@ -92,7 +92,8 @@ PaneHit facadePane(Ray ray, uint index) {
 SurfaceRecord shadePane(Ray ray, PaneHit hit) {
     Window window = WindowArray(sceneTable.windows).at[hit.window];
     return SurfaceRecord(paneRadiance(hit.window, window, ray.direction), hit.depth,
-                         towardsCamera(paneNormal(window), ray.direction), -1);
+                         towardsCamera(paneNormal(window), ray.direction),
+                         kPanePrimitive | hit.window);
 }
 
 // The wall, or the pane of its facade in front of it.
@@ -110,8 +111,7 @@ SurfaceRecord shadeTriangle(Ray ray, TriangleHit hit) {
     vec3 normal = normalize(cross(positions.at[triangle.vertex.y] - corner,
                                   positions.at[triangle.vertex.z] - corner));
     return SurfaceRecord(dimRadiance(triangle.material, texcoordAt(triangle, hit.barycentrics)),
-                         hit.depth, towardsCamera(normal, ray.direction),
-                         int(triangle.material));
+                         hit.depth, towardsCamera(normal, ray.direction), hit.triangle);
 }
 
 // Where the ray meets the ground plane, or kFar. The expression is that of
@@ -129,7 +129,7 @@ SurfaceRecord shadeGround(Ray ray, float depth) {
     vec3 up = vec3(0.0, 0.0, 1.0);
     Material material = MaterialArray(sceneTable.materials).at[sceneTable.groundMaterial];
     return SurfaceRecord(kDim * material.reflectance, depth, towardsCamera(up, ray.direction),
-                         int(sceneTable.groundMaterial));
+                         kGroundPrimitive);
 }
 
 #endif

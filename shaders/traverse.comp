@@ -18,14 +18,14 @@ RayProgress progressBefore(uint index) {
     return RayProgressArray(frameTable.progress).at[index];
 }
 
-void writeSegments(uint index, uint count, MediaHits hits, float end) {
+void writeSegments(uint index, uint count, MediaHits hits, SurfaceRecord surface) {
     PreciseRay ray = preciseCameraRay(pixelOf(push.firstPixel + index), push.sampleIndex);
     for (uint slot = 0; slot < kSegmentSlots; ++slot) {
         if (slot < count) {
             MediaBox box = MediaBoxArray(sceneTable.mediaBoxes).at[hits.box[slot]];
             SegmentArray(frameTable.segments).at[slot * frameTable.bandRays + index] =
                 segmentBetween(ray, box.lo, box.hi, hits.box[slot], hits.entry[slot],
-                               hits.exit[slot]);
+                               hits.exit[slot], surface);
         }
     }
 }
@@ -43,14 +43,14 @@ void main() {
     progress.segments = 0u;
     if (sceneTable.mediaMask != 0u) {
         Ray ray = cameraRay(pixelOf(push.firstPixel + index), push.sampleIndex);
-        float end = SurfaceRecordArray(frameTable.surfaces).at[index].depth;
-        MediaHits hits = mediaAlong(ray, end, progress.lastEntry, progress.lastBox);
+        SurfaceRecord surface = SurfaceRecordArray(frameTable.surfaces).at[index];
+        MediaHits hits = mediaAlong(ray, surface.depth, progress.lastEntry, progress.lastBox);
         progress.segments = min(hits.count, kSegmentSlots);
         if (hits.count > 0u) {
             if (push.round == 0u) {
                 progress.firstMediaId = MediaBoxArray(sceneTable.mediaBoxes).at[hits.box[0]].mediaId;
             }
-            writeSegments(index, progress.segments, hits, end);
+            writeSegments(index, progress.segments, hits, surface);
         }
         progress.lastEntry = hits.entry[kSegmentSlots - 1];
         progress.lastBox = hits.box[kSegmentSlots - 1];

@@ -108,12 +108,16 @@ struct PushConstants {
     uint round;        // of the traversal, from 0
 };
 
+// What a ray ends on: a triangle's index, a window's with this bit, the ground, or kNone.
+NIGHTCITY_CONST uint kPanePrimitive = 0x80000000u;
+NIGHTCITY_CONST uint kGroundPrimitive = 0xfffffffeu;
+
 // The nearest opaque surface on a ray, as surface.comp leaves it.
 struct SurfaceRecord {
-    vec3 radiance;  // W m^-2 sr^-1, towards the camera
-    float depth;    // m along the camera's axis, kSkyDepth for none
-    vec3 normal;    // towards the camera; 0 for sky
-    int material;   // -1 for sky and panes
+    vec3 radiance;   // W m^-2 sr^-1, towards the camera
+    float depth;     // m along the camera's axis, kSkyDepth for none
+    vec3 normal;     // towards the camera; 0 for sky
+    uint primitive;
 };
 
 // How far traversal and march have come along a ray.

@@ -24,13 +24,17 @@ struct AirlightLobe {
     float atEnd;     // m
 };
 
+NIGHTCITY_FUNCTION AirlightLobe airlightLobeAtEnds(AirlightInterval i, AirlightLobe lobe) {
+    lobe.atBegin = lobe.atFoot + lobe.slope * i.ua;
+    lobe.atEnd = lobe.atFoot + lobe.slope * i.ub;
+    return lobe;
+}
+
 NIGHTCITY_FUNCTION AirlightLobe airlightLobe(AirlightInterval i, vec3 direction, vec3 normal) {
     AirlightLobe lobe;
     lobe.atFoot = dot(normal, i.foot);
     lobe.slope = dot(normal, direction);
-    lobe.atBegin = lobe.atFoot + lobe.slope * i.ua;
-    lobe.atEnd = lobe.atFoot + lobe.slope * i.ub;
-    return lobe;
+    return airlightLobeAtEnds(i, lobe);
 }
 
 // The part of the interval before the emitter; of span 0 where all of it is behind.
@@ -102,9 +106,10 @@ NIGHTCITY_FUNCTION float airlightLambertian(AirlightInterval interval, vec3 dire
     if (i.span <= 0.0f) {
         return 0.0f;
     }
-    lobe.atBegin = max(lobe.atBegin, 0.0f);
     i = airlightClipped(i, extinction, airlightClipDepth(tolerance, kAirlightLambertian));
-    lobe.atEnd = max(lobe.atBegin + lobe.slope * i.span, 0.0f);
+    lobe = airlightLobeAtEnds(i, lobe);
+    lobe.atBegin = max(lobe.atBegin, 0.0f);  // an edge misses 0 by a rounding
+    lobe.atEnd = max(lobe.atEnd, 0.0f);
     AirlightSine sine = airlightSine(i, lobe);
     float middle = airlightStepOfSine(i, sine, 0.5f);
     float d = airlightDistance(i, middle);

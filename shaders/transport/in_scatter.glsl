@@ -9,15 +9,14 @@
 #include "constants.glsl"
 #include "exponential.glsl"
 
-// m^2, added to the squared distance, only against division by zero where a step falls on a
-// light: at 0.01 m it changes the value by 1e-8.
+// m^2, only against division by zero where a step falls on a light.
 const float kSmallestDistance2 = 1e-12;
 
 // exp(-extinction d - opticalDepth) / d^2, in 1/m^2: what a point of light of
 // 4 pi W gives as fluence at `toLight` m from it, seen through haze of
 // `opticalDepth` before the eye.
 float attenuatedInverseSquare(vec3 toLight, float extinction, float opticalDepth) {
-    float distance2 = dot(toLight, toLight) + kSmallestDistance2;
+    float distance2 = max(dot(toLight, toLight), kSmallestDistance2);
     return expNegative(extinction * sqrt(distance2) + opticalDepth) / distance2;
 }
 
