@@ -9,6 +9,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -188,6 +189,7 @@ def test_more_than_a_hundred_siblings_are_grouped(tmp_path: Path) -> None:
 
 _WRITE = """
 import sys
+import time
 sys.path.insert(0, {tests!r})
 from pathlib import Path
 from stage_city import small_city
@@ -302,3 +304,16 @@ def test_bad_records_are_named_and_nothing_is_written(what: str, tmp_path: Path)
     with pytest.raises(SceneError, match=expected):
         write_stage(city, tmp_path / "city.usda")
     assert tree(tmp_path) == {}
+
+
+def test_cost_grows_with_the_city_and_no_faster(tmp_path: Path) -> None:
+    """Thousands of siblings must not go quadratic, as they do through the Usd API."""
+
+    def seconds(count: int) -> float:
+        city = small_city(count)
+        start = time.process_time()
+        write_stage(city, tmp_path / "city.usda")
+        return time.process_time() - start
+
+    seconds(10)  # loads what is loaded once
+    assert seconds(3200) < 3 * 8 * seconds(400)
