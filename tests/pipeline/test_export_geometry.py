@@ -232,6 +232,13 @@ def test_a_material_that_an_interface_input_drives(tmp_path: Path) -> None:
     assert export(stage, tmp_path / "s")["material"]["reflectance"].tolist() == [[0.25, 0.5, 0.75]]
 
 
+def test_a_preview_surface_s_own_default(tmp_path: Path) -> None:
+    """UsdPreviewSurface: diffuseColor is 0.18 where nothing is authored."""
+    stage = new_stage(tmp_path / "a.usda")
+    bind(add_mesh(stage, "/P", POINTS, FACES).GetPrim(), add_material(stage, "M")[0])
+    assert_allclose(export(stage, tmp_path / "s")["material"]["reflectance"], [[0.18] * 3])
+
+
 def test_display_colour_and_grey(tmp_path: Path) -> None:
     stage = new_stage(tmp_path / "a.usda")
     add_mesh(stage, "/Grey", POINTS, FACES)

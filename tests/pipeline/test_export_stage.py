@@ -121,6 +121,16 @@ def test_units_and_up_axis(tmp_path: Path) -> None:
     assert_allclose(scene["position"]["position"][2], (1.01, -3, 2.01), rtol=1e-6)
 
 
+def test_a_reset_transform_stack_still_has_units(tmp_path: Path) -> None:
+    stage = new_stage(tmp_path / "a.usda", unit=0.01)
+    UsdGeom.Xform.Define(stage, "/A").AddTranslateOp().Set((5000, 0, 0))
+    cube = UsdGeom.Cube.Define(stage, "/A/C")
+    cube.AddTranslateOp().Set((100, 0, 0))
+    cube.SetResetXformStack(True)
+    scene = export(stage, tmp_path / "s")
+    assert_allclose(scene["position"]["position"].mean(axis=0), (1, 0, 0), atol=1e-6)
+
+
 def test_a_stage_without_units_says_so(tmp_path: Path) -> None:
     path = tmp_path / "a.usda"
     path.write_text('#usda 1.0\ndef Cube "A" { \ndouble size = 100\n}\n')
