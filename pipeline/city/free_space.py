@@ -34,19 +34,15 @@ class FreeSpace:
         return nearest
 
     def covered(self, points: FloatArray) -> BoolArray:
-        """(N,) whether points (N, 3) m lie inside a building: right above them is a face that
-        looks up. A face that looks down (an arch, eaves) leaves the space below it free."""
-        directions = np.broadcast_to(_UP, points.shape)
-        nearest = np.full(len(points), np.inf)
-        first = np.full(len(points), -1)
-        for ray, triangle, distance in self._hits(points, directions, np.inf):
-            order = np.lexsort((distance, ray))  # the first of each ray is its nearest
-            head = order[np.unique(ray[order], return_index=True)[1]]
-            better = head[distance[head] < nearest[ray[head]]]
-            nearest[ray[better]] = distance[better]
-            first[ray[better]] = triangle[better]
-        looks_up = np.cross(self._ab[first], self._ac[first])[:, 2] > 0
-        return (first >= 0) & looks_up
+        """(N,) whether points (N, 3) m lie inside a building: more faces above them look up than
+        down. That holds too where solids overlap or share faces; eaves and arches, which look
+        down and up again, leave the space below them free."""
+        surplus = np.zeros(len(points))
+        up = np.broadcast_to(_UP, points.shape)
+        for ray, triangle, _ in self._hits(points, up, np.inf):
+            normal_z = np.cross(self._ab[triangle], self._ac[triangle])[:, 2]
+            np.add.at(surplus, ray, np.sign(normal_z))
+        return surplus > 0
 
     def _hits(
         self, origins: FloatArray, directions: FloatArray, reach: float

@@ -45,16 +45,20 @@ def triangulate(
 
 def newell_normal(ring: FloatArray) -> FloatArray:
     """Twice the vector area of a closed ring (N, 3): Newell's normal, of any length."""
-    about = ring - ring[0]
-    return np.cross(about, np.roll(about, -1, axis=0)).sum(axis=0)
+    x, y, z = (ring - ring[0]).T
+    after = np.r_[1 : len(ring), 0]
+    x1, y1, z1 = x[after], y[after], z[after]
+    return np.array((np.sum(y * z1 - z * y1), np.sum(z * x1 - x * z1), np.sum(x * y1 - y * x1)))
 
 
 def plane_axes(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Unit vectors u, v with u x v along the unit normal; v points up where the normal lets it."""
-    seed = np.array((0.0, 0.0, 1.0) if abs(normal[2]) < 0.9 else (0.0, 1.0, 0.0))
-    u = np.cross(seed, normal)
-    u /= np.linalg.norm(u)
-    return u, np.cross(normal, u)
+    x, y, z = normal
+    # The z-axis, or the y-axis where the face is nearly level, times the normal.
+    u = np.array((-y, x, 0.0) if abs(z) < 0.9 else (z, 0.0, -x))
+    u /= np.sqrt(u @ u)
+    v = np.array((y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0]))
+    return u, v
 
 
 def _triangles_of(
@@ -77,7 +81,8 @@ def _without_repeats(ring: IntArray, points: FloatArray) -> IntArray:
     """The ring without vertices that lie where the one before them lies (closing ones too)."""
     if len(ring) < 2:
         return ring
-    return ring[(points[ring] != points[np.roll(ring, 1)]).any(axis=1)]
+    places = points[ring]
+    return ring[(places != places[np.r_[-1, 0 : len(ring) - 1]]).any(axis=1)]
 
 
 def _ear_cut(
@@ -107,4 +112,5 @@ def _signed_areas(triangles: FloatArray) -> FloatArray:
 
 def _ring_area(ring: FloatArray) -> float:
     x, y = ring.T
-    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+    after = np.r_[1 : len(ring), 0]
+    return 0.5 * float(x @ y[after] - x[after] @ y)

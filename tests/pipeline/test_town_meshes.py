@@ -13,7 +13,7 @@ from town_files import DENHAAG, TownFile, box
 
 from nightcity.city.import_town import import_town
 from nightcity.city.model import Building, FloatArray, Mesh
-from nightcity.city.triangulate import newell_normal, triangulate
+from nightcity.city.triangulate import newell_normal, plane_axes, triangulate
 
 SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
 HOLE = [(1, 1), (1, 3), (3, 3), (3, 1)]
@@ -155,3 +155,15 @@ def test_meshes_of_the_hague_are_closed_above_the_ground() -> None:
                     edges[points[b], points[a]] -= 1
         assert not any(edges.values()), building.name
         assert volume(building.mesh) > 0
+
+
+@pytest.mark.parametrize(
+    "normal", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0.6, -0.8, 0), (0.1, 0.2, 0.9)]
+)
+def test_plane_axes_are_right_handed_and_point_up(normal: tuple[float, ...]) -> None:
+    n = np.array(normal, dtype=float) / np.linalg.norm(normal)
+    u, v = plane_axes(n)
+    assert np.cross(u, v) == pytest.approx(n)
+    assert np.linalg.norm(u) == pytest.approx(1) and u @ v == pytest.approx(0)
+    if abs(n[2]) < 0.9:
+        assert u[2] == 0 and v[2] > 0
