@@ -11,7 +11,7 @@ import shapely
 
 from nightcity.city.model import BoolArray, FloatArray, IntArray
 
-_BLOCK = 20_000  # rays at a time; bounds the memory of ray-triangle pairs
+_BLOCK = 4_000  # rays at a time; bounds the memory of ray-triangle pairs
 _EDGE = 1e-9  # barycentric slack, so that no ray slips between two triangles
 _UP = np.array((0.0, 0.0, 1.0))
 
