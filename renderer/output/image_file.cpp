@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <fstream>
+#include <stdexcept>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include "errors.h"
 #include "output/channels.h"
-#include "output/pending_file.h"
 #include "output/tone_map.h"
+#include "output/whole_file.h"
 
 namespace nightcity {
 
@@ -44,18 +47,21 @@ void addExrMetadata(OIIO::ImageSpec& spec, const ImageMetadata& metadata) {
     spec.attribute("DateTime", "");  // or OpenImageIO puts the time of writing here
 }
 
+// Encoded in memory: the libraries below OpenImageIO end the program where a disk is full.
 void store(const std::filesystem::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
            const void* pixels) {
-    PendingFile pending(file);
-    const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(pending.path().string());
+    OIIO::Filesystem::IOVecOutput memory;
+    const std::string name = file.string();
+    const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(name, &memory);
     if (!out) {
-        pending.fail(OIIO::geterror());
+        throw std::runtime_error(name + ": cannot be encoded: " + OIIO::geterror());
     }
-    const bool written = out->open(pending.path().string(), spec) && out->write_image(type, pixels);
+    const bool written = out->open(name, spec) && out->write_image(type, pixels);
     if (!out->close() || !written) {
-        pending.fail(out->geterror());
+        throw std::runtime_error(name + ": cannot be encoded: " + out->geterror());
     }
-    pending.finish();
+    const std::vector<unsigned char>& bytes = memory.buffer();
+    writeWholeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void writeExr(const std::filesystem::path& file, const Frame& frame, const ImageMetadata& metadata,
@@ -120,7 +126,21 @@ void writeCsv(const std::filesystem::path& file, const Frame& frame, const Image
         }
         text += "\n";
     }
-    writeTextFile(file, text);
+    writeWholeFile(file, text);
+}
+
+// Whether the file ends as its format does. Decoders are no judge of that: libjpeg fills
+// what is missing with grey, libpng writes to standard error.
+bool hasItsEnd(const std::filesystem::path& file, ImageFormat format) {
+    using namespace std::string_view_literals;
+    const std::string_view end = format == ImageFormat::png    ? "IEND\xae\x42\x60\x82"sv
+                                 : format == ImageFormat::jpeg ? "\xff\xd9"sv
+                                                               : ""sv;
+    std::ifstream in(file, std::ios::binary);
+    in.seekg(-std::streamoff(end.size()), std::ios::end);
+    std::string last(end.size(), '\0');
+    in.read(last.data(), std::streamsize(last.size()));
+    return in.good() && last == end;
 }
 
 }  // namespace
@@ -160,7 +180,9 @@ void writeImage(const std::filesystem::path& file, const Frame& frame,
 
 bool isWholeImage(const std::filesystem::path& file, const std::string& name,
                   const std::string& value, std::uint32_t width, std::uint32_t height) {
-    if (!std::filesystem::is_regular_file(file) || imageFormat(file) == ImageFormat::csv) {
+    const ImageFormat format = imageFormat(file);
+    if (format == ImageFormat::csv || !std::filesystem::is_regular_file(file) ||
+        !hasItsEnd(file, format)) {
         return false;
     }
     const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(file.string());

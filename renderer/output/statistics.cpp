@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include "output/pending_file.h"
+#include "output/whole_file.h"
 
 namespace nightcity {
 
@@ -85,7 +85,7 @@ void writeStatistics(const std::filesystem::path& file, const StatisticsReport& 
         {"light_storage", last.lightStorage},
         {"light_evaluations_per_second", seconds > 0 ? double(last.lightEvaluations) / seconds : 0},
         {"notes", report.notes}};
-    writeTextFile(file, json.dump(2) + "\n");
+    writeWholeFile(file, json.dump(2) + "\n");
 }
 
 }  // namespace nightcity

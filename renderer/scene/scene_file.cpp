@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene_file.h"
 
-#include <algorithm>
-
-#include <xxhash.h>
-
 #include "scene/checks.h"
+#include "scene/content_hash.h"
 #include "scene/fault.h"
 #include "scene/manifest.h"
 #include "scene/mapped_file.h"
@@ -16,17 +13,6 @@ namespace nightcity {
 
 namespace {
 
-std::string hashText(std::span<const std::byte> bytes) {
-    XXH128_canonical_t canonical;
-    XXH128_canonicalFromHash(&canonical, XXH3_128bits(bytes.data(), bytes.size()));
-    std::string digits;
-    for (const unsigned char byte : canonical.digest) {
-        digits += "0123456789abcdef"[byte >> 4];
-        digits += "0123456789abcdef"[byte & 15];
-    }
-    return digits;
-}
-
 void checkBinary(const Manifest& manifest, std::span<const std::byte> bytes,
                  const std::filesystem::path& file) {
     if (bytes.size() != manifest.binaryBytes) {
@@ -35,7 +21,7 @@ void checkBinary(const Manifest& manifest, std::span<const std::byte> bytes,
                       "; the copy is not whole, or the two files do not belong together: " +
                       kExportAgain);
     }
-    const std::string hash = hashText(bytes);
+    const std::string hash = contentHash(bytes);
     if (hash != manifest.binaryHash) {
         failScene(file, "the hash", hash,
                   "scene.json says '" + manifest.binaryHash +
@@ -94,7 +80,7 @@ FlatScene loadScene(const std::filesystem::path& folder) {
     scene.frames = manifest.frames;
     scene.defaults = std::move(manifest.defaults);
     scene.origin = manifest.origin;
-    scene.hash = hashText(manifestBytes.bytes());
+    scene.hash = contentHash(manifestBytes.bytes());
     scene.generator = std::move(manifest.generator);
     scene.notes = std::move(manifest.notes);
     scene.storage = binary;

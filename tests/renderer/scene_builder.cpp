@@ -8,8 +8,7 @@
 #include <fstream>
 #include <numbers>
 
-#include <xxhash.h>
-
+#include "scene/content_hash.h"
 #include "scene/record_layout.h"
 #include "scene/scene_file.h"
 #include "temporary_folder.h"
@@ -17,17 +16,6 @@
 namespace nightcity {
 
 namespace {
-
-std::string hashText(const std::vector<std::uint8_t>& bytes) {
-    XXH128_canonical_t canonical;
-    XXH128_canonicalFromHash(&canonical, XXH3_128bits(bytes.data(), bytes.size()));
-    std::string digits;
-    for (const unsigned char byte : canonical.digest) {
-        digits += "0123456789abcdef"[byte >> 4];
-        digits += "0123456789abcdef"[byte & 15];
-    }
-    return digits;
-}
 
 class BinaryWriter {
 public:
@@ -147,7 +135,7 @@ void SceneBuilder::write(const std::filesystem::path& folder) const {
         {"units", {{"length", "m"}, {"power", "W"}, {"extinction", "1/m"},
                    {"radiance", "W m^-2 sr^-1"}}},
         {"binary", {{"file", "scene.bin"}, {"bytes", binary.bytes.size()},
-                    {"hash", hashText(binary.bytes)}}},
+                    {"hash", contentHash(std::as_bytes(std::span(binary.bytes)))}}},
         {"arrays", binary.arrays}, {"cameras", cameraEntries}, {"ground", nullptr},
         {"frames", {{"first", 1}, {"last", 1}, {"per_second", 24.0}}},
         {"render", {{"camera", nullptr}, {"width", 0}, {"height", 0},

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_source.h"
+
+#include <optional>
+
+#include "reference/reference_renderer.h"
+
+namespace nightcity {
+
+namespace {
+
+class DeviceFrames final : public FrameSource {
+public:
+    DeviceFrames(const FlatScene& scene, const Options& options)
+        : scene_(scene), settings_(options.settings), delegate_(RenderDelegate::create(options.device)) {}
+
+    Frame render(const RenderProduct& product, const ProgressCallback& progress) override {
+        if (syncedFrame_ != product.frame) {
+            const SceneChanges changes{.geometry = !syncedFrame_, .windowState = true};
+            delegate_->sync(scene_, product.frame, settings_, changes);
+            syncedFrame_ = product.frame;
+        }
+        delegate_->render(product, settings_, progress);
+        return delegate_->resolve();
+    }
+
+    RenderStatistics statistics() const override { return delegate_->statistics(); }
+    std::vector<std::string> notes() const override { return delegate_->notes(); }
+
+private:
+    const FlatScene& scene_;
+    const RenderSettings& settings_;
+    std::unique_ptr<RenderDelegate> delegate_;
+    std::optional<int> syncedFrame_;
+};
+
+class ReferenceFrames final : public FrameSource {
+public:
+    ReferenceFrames(const FlatScene& scene, const Options& options)
+        : scene_(scene), settings_(options.settings) {}
+
+    Frame render(const RenderProduct& product, const ProgressCallback& progress) override {
+        ReferenceImage image = renderReference(scene_, product, settings_, progress);
+        statistics_ = image.statistics;
+        return std::move(image.frame);
+    }
+
+    RenderStatistics statistics() const override { return statistics_; }
+    std::vector<std::string> notes() const override { return {}; }
+
+private:
+    const FlatScene& scene_;
+    const RenderSettings& settings_;
+    RenderStatistics statistics_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> makeFrameSource(const FlatScene& scene, const Options& options) {
+    if (options.settings.method == Method::reference) {
+        return std::make_unique<ReferenceFrames>(scene, options);
+    }
+    return std::make_unique<DeviceFrames>(scene, options);
+}
+
+}  // namespace nightcity

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "option_checks.h"
+
+#include <cmath>
+
+#include <unistd.h>
+
+#include "errors.h"
+#include "frame_names.h"
+#include "output/channels.h"
+#include "output/image_file.h"
+
+namespace nightcity {
+
+namespace {
+
+using Given = std::function<bool(const char*)>;
+
+void require(bool holds, const std::string& message) {
+    if (!holds) {
+        throw UsageError(message);
+    }
+}
+
+void checkWritable(const char* option, const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    require(std::filesystem::is_directory(folder),
+            std::string(option) + " " + file.string() + ": there is no folder " + folder.string() +
+                "; make it first");
+    require(::access(folder.c_str(), W_OK) == 0, std::string(option) + " " + file.string() +
+                                                     ": the folder " + folder.string() +
+                                                     " cannot be written; choose another");
+    require(!std::filesystem::is_directory(file),
+            std::string(option) + " " + file.string() + ": is a folder; give a file's name");
+}
+
+void checkOutput(const Options& options, const Given& given) {
+    require(!options.output.empty(), "-o FILE is missing; give the image to write");
+    const ImageFormat format = imageFormat(options.output);
+    const bool table = format == ImageFormat::csv;
+    const bool display = format == ImageFormat::png || format == ImageFormat::jpeg;
+    require(table == given("--pixels"),
+            table ? "-o " + options.output.string() + ": a table needs --pixels N or --pixels FILE"
+                  : "--pixels writes a table; end -o in .csv");
+    require(!display || !given("--aovs"), "--aovs is for .exr and .csv; PNG and JPEG show beauty");
+    require(display || !given("--exposure"),
+            "--exposure is for .png and .jpg; EXR and CSV keep the radiance");
+    require(!table || !options.skipExisting, "--skip-existing is for images, not for tables");
+    checkWritable("-o", options.output);
+    if (!options.stats.empty()) {
+        checkWritable("--stats", options.stats);
+    }
+}
+
+void checkSequence(const Options& options) {
+    const std::size_t frames = options.frames ? options.frames->size() : 1;
+    require(frames == 1 || hasFramePlace(options.output),
+            "--frames: several frames need a place in -o, like " +
+                options.output.stem().string() + ".####" + options.output.extension().string());
+    require(frames == 1 || options.repeat == 1, "--repeat times one frame; give one in --frames");
+    require(!options.skipExisting || options.repeat == 1,
+            "--skip-existing and --repeat exclude each other");
+}
+
+void checkMethod(const Options& options, const Given& given) {
+    if (options.settings.method == Method::march) {
+        return;
+    }
+    for (const char* name : {"--march-order", "--light-storage", "--device", "--validation"}) {
+        require(!given(name), std::string(name) + " is for --method march; the reference runs on the CPU");
+    }
+}
+
+}  // namespace
+
+void checkCombinations(const Options& options, const Given& given) {
+    if (options.listDevices) {
+        return;
+    }
+    require(!options.scene.empty(), "no scene is given; see nightcity-render --help");
+    require(options.pixelCount.value_or(1) > 0, "--pixels 0: give at least 1");
+    require(std::isfinite(options.exposure) && std::abs(options.exposure) <= 64,
+            "--exposure must lie from -64 to 64");
+    if (options.aovs) {
+        selectChannels(*options.aovs);
+    }
+    checkOutput(options, given);
+    checkSequence(options);
+    checkMethod(options, given);
+}
+
+}  // namespace nightcity

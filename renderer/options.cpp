@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "options.h"
+
+#include <charconv>
+#include <ostream>
+
+#include <CLI/CLI.hpp>
+
+#include "choices.h"
+#include "errors.h"
+#include "frame_names.h"
+#include "option_checks.h"
+
+namespace nightcity {
+
+namespace {
+
+constexpr std::uint32_t kMaxSide = 65536;                        // pixels
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;     // of one image
+constexpr std::uint32_t kMaxCount = 1u << 24;  // of steps, samples, repeats, pixels, lights
+
+std::optional<std::uint32_t> wholeNumber(std::string_view text) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+glm::uvec2 parseSize(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    const auto width = wholeNumber(std::string_view(text).substr(0, cross));
+    const auto height = cross == std::string::npos
+                            ? std::nullopt
+                            : wholeNumber(std::string_view(text).substr(cross + 1));
+    if (!width || !height || *width == 0 || *height == 0 || *width > kMaxSide ||
+        *height > kMaxSide || std::uint64_t{*width} * *height > kMaxPixels) {
+        throw UsageError("--size " + text +
+                         ": give WIDTHxHEIGHT in pixels, like 1920x1061; each from 1 to 65536, "
+                         "together at most 268435456");
+    }
+    return {*width, *height};
+}
+
+template <typename Value>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& target,
+                       const std::string& help) {
+    const auto set = [&target, name](const std::string& text) {
+        for (const Choice<Value>& choice : kChoices<Value>) {
+            if (choice.name == text) {
+                target = choice.value;
+                return;
+            }
+        }
+        throw UsageError(name + " " + text + " is not known; there is " +
+                         choiceNames<Value>(" and "));
+    };
+    return app.add_option_function<std::string>(name, set, help)
+        ->type_name(choiceNames<Value>("|"))
+        ->default_str(choiceName(target));
+}
+
+CLI::Option* addCount(CLI::App& app, const std::string& name, std::uint32_t& target,
+                      const std::string& help) {
+    return app.add_option(name, target, help)
+        ->check(CLI::Range(1u, kMaxCount).description(""))
+        ->capture_default_str()
+        ->type_name("N");
+}
+
+void addWhat(CLI::App& app, Options& options) {
+    app.add_option("scene", options.scene, "the flat scene: a folder that 'nightcity export' wrote")
+        ->type_name("FOLDER");
+    app.add_option("-o,--output", options.output,
+                   "image (.exr, .png, .jpg) or table (.csv, with --pixels); #### or %04d stands "
+                   "for the frame")
+        ->type_name("FILE");
+    app.add_option("--camera", options.camera, "camera (default: the stage's, else the first)")
+        ->type_name("NAME");
+    app.add_option_function<std::string>(
+           "--size", [&](const std::string& text) { options.size = parseSize(text); },
+           "pixels (default: the stage's, else 1920x1061)")
+        ->type_name("WIDTHxHEIGHT");
+    app.add_option_function<std::string>(
+           "--frames", [&](const std::string& text) { options.frames = parseFrames(text); },
+           "like 1-10, 1-10x2 or 1,5,20-30 (default: the stage's first)")
+        ->type_name("FRAMES");
+    app.add_option_function<std::string>(
+           "--pixels",
+           [&](const std::string& text) {
+               options.pixelCount = wholeNumber(text);
+               if (!options.pixelCount) {
+                   options.pixelFile = text;
+               }
+           },
+           "only so many random pixels that see a medium, or those of a file of lines x,y")
+        ->type_name("N|FILE");
+    app.add_option("--aovs", options.aovs,
+                   "channels, separated by commas: beauty, glow, surface, transmittance, depth, "
+                   "normal, mediaId, materialId (default: the stage's, else all)")
+        ->delimiter(',')
+        ->type_name("NAMES");
+}
+
+// CLI11 hands values on in the order of these calls: the switches after --model,
+// wherever they stand on the command line.
+void addModel(CLI::App& app, Options& options) {
+    Model& model = options.settings.model;
+    app.add_option_function<std::string>(
+           "--model",
+           [&model](const std::string& text) {
+               if (text != "paper") {
+                   throw UsageError("--model " + text + " is not known; there is paper");
+               }
+               model = {};
+           },
+           "which physics: paper is --lights listed --visibility none --emitter isotropic "
+           "--scattering single --surfaces dim")
+        ->type_name("paper")
+        ->default_str("paper");
+    addChoice(app, "--lights", model.lights, "which windows light a point");
+    addChoice(app, "--visibility", model.visibility, "what hides them");
+    addChoice(app, "--emitter", model.emitter, "how a window shines");
+    addChoice(app, "--scattering", model.scattering, "orders of scattering");
+    addChoice(app, "--surfaces", model.surfaces, "how walls and ground are shown");
+    app.add_option_function<std::string>(
+           "--media",
+           [&](const std::string& text) {
+               if (text != "on" && text != "off") {
+                   throw UsageError("--media " + text + " is not known; there is on and off");
+               }
+               options.settings.media = text == "on";
+           },
+           "off: the surface frame, without haze")
+        ->type_name("on|off")
+        ->default_str("on");
+}
+
+void addMethod(CLI::App& app, Options& options) {
+    RenderSettings& settings = options.settings;
+    addChoice(app, "--method", settings.method,
+              "march on the device, or the same in double precision on the CPU");
+    addCount(app, "--subdivisions", settings.subdivisions, "steps in each media box");
+    addChoice(app, "--march-order", settings.marchOrder, "which loop of the march is outside");
+    app.add_option("--light-cap", settings.lightCap, "at most so many lit windows a media box")
+        ->check(CLI::Range(1u, kMaxCount).description(""))
+        ->type_name("N");
+    addChoice(app, "--light-storage", settings.lightStorage, "buffers of the light lists");
+    addCount(app, "--pixel-samples", settings.pixelSamples, "rays a pixel");
+    addChoice(app, "--filter", settings.filter, "where in the pixel they lie");
+    app.add_option("--seed", settings.seed, "shifts whatever is random")->capture_default_str();
+    addCount(app, "--repeat", options.repeat,
+             "render so often for timing, the camera 0.1 m further each; the first is written");
+}
+
+void addRun(CLI::App& app, Options& options, bool& quiet) {
+    app.add_option("--exposure", options.exposure, "PNG and JPEG: radiance times 2^EV")
+        ->type_name("EV")
+        ->capture_default_str();
+    app.add_option("--device", options.device.device, "part of a name, or a number of --list-devices")
+        ->type_name("DEVICE");
+    app.add_flag("--list-devices", options.listDevices, "list the devices and what they lack");
+    app.add_flag("--validation", options.device.validation,
+                 "Vulkan's validation layers; a message is an error");
+    app.add_option("--stats", options.stats, "write times, counts and memory as JSON")
+        ->type_name("FILE");
+    app.add_flag("--skip-existing", options.skipExisting,
+                 "keep images that are there, whole and of the same settings");
+    addChoice(app, "--progress", options.progress, "how progress is shown");
+    app.add_flag("--quiet", quiet, "no progress, no notes");
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, const char* const* argv, std::ostream& out) {
+    CLI::App app("Renders the glow of a city at night from a flat scene.", "nightcity-render");
+    app.set_version_flag("--version", "nightcity-render " NIGHTCITY_VERSION);
+    Options options;
+    bool quiet = false;
+    addWhat(app, options);
+    addModel(app, options);
+    addMethod(app, options);
+    addRun(app, options, quiet);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        out << app.help();
+        return std::nullopt;
+    } catch (const CLI::CallForVersion&) {
+        out << app.version() << "\n";
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(std::string(error.what()) + "; see nightcity-render --help");
+    }
+    if (quiet) {
+        options.progress = ProgressStyle::none;
+    }
+    checkCombinations(options, [&](const char* name) { return app.count(name) > 0; });
+    return options;
+}
+
+}  // namespace nightcity

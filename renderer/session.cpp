@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session.h"
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include "errors.h"
+#include "frame_names.h"
+#include "frame_source.h"
+#include "image_metadata.h"
+#include "output/channels.h"
+#include "output/image_file.h"
+#include "output/statistics.h"
+#include "progress.h"
+#include "reference/reference_renderer.h"
+#include "scene/scene_file.h"
+#include "stop_signal.h"
+
+namespace nightcity {
+
+namespace {
+
+constexpr float kRepeatStep = 0.1f;  // m along the camera's right vector (design section 6)
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string chooseCamera(const FlatScene& scene, const Options& options) {
+    std::string name = options.camera.value_or(scene.defaults.camera);
+    if (!options.camera && name.empty() && !scene.cameras.empty()) {
+        name = scene.cameras.front().name;
+    }
+    return scene.camera(name).name;  // or an error that lists the names
+}
+
+glm::uvec2 chooseSize(const FlatScene& scene, const Options& options, const std::string& camera,
+                      int frame) {
+    if (options.size) {
+        return *options.size;
+    }
+    const RenderDefaults& defaults = scene.defaults;
+    const double aspect = scene.camera(camera).at(frame).aspect;
+    const auto side = [](double pixels) { return glm::uint(std::clamp(pixels + 0.5, 1.0, 65536.0)); };
+    if (defaults.width > 0 && defaults.height > 0) {
+        return {defaults.width, defaults.height};
+    }
+    if (defaults.width > 0) {
+        return {defaults.width, side(defaults.width / aspect)};
+    }
+    if (defaults.height > 0) {
+        return {side(defaults.height * aspect), defaults.height};
+    }
+    return {1920, 1061};
+}
+
+class Session {
+public:
+    explicit Session(const Options& options)
+        : options_(options),
+          format_(imageFormat(options.output)),
+          progress_(options.progress, std::cout),
+          started_(Clock::now()),
+          scene_(loadScene(options.scene)) {
+        report_.loadMilliseconds = millisecondsSince(started_);
+    }
+
+    void run() {
+        prepare();
+        const std::vector<int> frames =
+            options_.frames.value_or(std::vector<int>{scene_.frames.first});
+        for (const int frame : frames) {
+            stopIfAsked();
+            renderFrame(frame);
+        }
+        if (!options_.stats.empty() && !report_.frames.empty()) {
+            completeReport();
+            writeStatistics(options_.stats, report_);
+            progress_.line("wrote " + options_.stats.string());
+        }
+    }
+
+private:
+    // Everything that can be wrong is asked before the first frame.
+    void prepare() {
+        const int first = options_.frames ? options_.frames->front() : scene_.frames.first;
+        product_.camera = chooseCamera(scene_, options_);
+        const glm::uvec2 size = chooseSize(scene_, options_, product_.camera, first);
+        product_.width = size.x;
+        product_.height = size.y;
+        product_.frame = first;
+        if (options_.pixelFile) {
+            product_.pixels = readPixels(*options_.pixelFile, size);
+        } else if (options_.pixelCount) {
+            product_.pixels =
+                selectPixels(scene_, product_, *options_.pixelCount, options_.settings.seed);
+            if (product_.pixels.empty()) {
+                throw UsageError("--pixels: no pixel of camera " + product_.camera +
+                                 " sees a medium; choose another camera");
+            }
+            if (product_.pixels.size() < *options_.pixelCount) {
+                note("only " + std::to_string(product_.pixels.size()) + " pixels of camera " +
+                     product_.camera + " see a medium; all of them are rendered");
+            }
+        }
+        image_.pixels = product_.pixels;
+        image_.exposure = options_.exposure;
+        image_.aovs = chooseAovs();
+    }
+
+    std::vector<std::string> chooseAovs() {
+        if (options_.aovs) {
+            return *options_.aovs;
+        }
+        if (format_ == ImageFormat::csv) {
+            return {};  // all
+        }
+        std::vector<std::string> known;
+        for (const std::string& aov : scene_.defaults.aovs) {
+            try {
+                selectChannels({&aov, 1});
+                known.push_back(aov);
+            } catch (const UsageError& error) {
+                note(std::string("the stage's render settings: ") + error.what());
+            }
+        }
+        return known;
+    }
+
+    void renderFrame(int frame) {
+        product_.frame = frame;
+        product_.cameraOffset = glm::vec3(0);
+        const std::filesystem::path file = frameFile(options_.output, frame);
+        const ImageMetadata metadata =
+            describeImage(scene_, product_, options_.settings, image_, format_);
+        if (options_.skipExisting &&
+            isWholeImage(file, metadata.entries.back().first, metadata.entries.back().second,
+                         product_.width, product_.height)) {
+            progress_.line("kept " + file.string());
+            return;
+        }
+        const Clock::time_point start = Clock::now();
+        writeImage(file, renderOnce("frame " + std::to_string(frame)), metadata, image_);
+        char seconds[32];
+        std::snprintf(seconds, sizeof seconds, " (%.2f s)", millisecondsSince(start) / 1000);
+        progress_.line("wrote " + file.string() + seconds);
+        settings_ = metadata.entries;
+        const glm::vec3 right = scene_.camera(product_.camera).at(frame).right;
+        for (std::uint32_t repeat = 1; repeat < options_.repeat; ++repeat) {
+            product_.cameraOffset = float(repeat) * kRepeatStep * right;
+            renderOnce("repeat " + std::to_string(repeat + 1));
+        }
+    }
+
+    Frame renderOnce(const std::string& name) {
+        const bool first = !source_;
+        if (first) {
+            source_ = makeFrameSource(scene_, options_);
+        }
+        Frame frame = source_->render(product_, [&](double share) {
+            progress_.update(name, share);
+            stopIfAsked();
+        });
+        report_.frames.push_back(source_->statistics());
+        if (first) {
+            report_.bakeMilliseconds = source_->statistics().bakeMilliseconds;
+            for (const std::string& sentence : source_->notes()) {
+                note(sentence);
+            }
+        }
+        return frame;
+    }
+
+    void note(const std::string& sentence) {
+        report_.notes.push_back(sentence);
+        if (options_.progress != ProgressStyle::none) {
+            std::cerr << "note: " << sentence << std::endl;
+        }
+    }
+
+    void completeReport() {
+        report_.settings = settings_;
+        report_.buildings = scene_.buildings.size();
+        report_.windows = scene_.windows.size();
+        report_.mediaBoxes = scene_.mediaBoxes.size();
+        report_.triangles = scene_.triangles.size() + 12 * scene_.mediaBoxes.size() +
+                            2 * scene_.windows.size();
+        report_.lightListEntries = scene_.lightList.size();
+    }
+
+    const Options& options_;
+    ImageFormat format_;
+    Progress progress_;
+    Clock::time_point started_;
+    FlatScene scene_;
+    RenderProduct product_;
+    ImageOptions image_;
+    StatisticsReport report_;
+    std::vector<std::pair<std::string, std::string>> settings_;  // of the last image
+    std::unique_ptr<FrameSource> source_;
+};
+
+}  // namespace
+
+void runSession(const Options& options) {
+    Session(options).run();
+}
+
+}  // namespace nightcity
