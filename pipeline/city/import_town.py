@@ -45,7 +45,7 @@ _WALLS = (
     Material("wall_dark_brick", (0.2, 0.15, 0.13)),
 )
 _ROOFS = (Material("roof_tile", (0.3, 0.14, 0.1)), Material("roof_slate", (0.15, 0.15, 0.17)))
-_GROUND = Material("ground", (0.2, 0.2, 0.2))
+_GROUND = Material("ground", (0.08, 0.08, 0.08))  # worn asphalt
 _MATERIALS = (*_WALLS, *_ROOFS, _GROUND)
 _LARGEST_BUILDING = 10_000.0  # m in any direction
 _LARGEST_TOWN = 200_000.0  # m in any direction
