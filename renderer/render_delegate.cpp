@@ -90,8 +90,14 @@ private:
         if (flatScene_ == nullptr) {
             throw std::logic_error("render before a sync that succeeded");
         }
-        if (settings.method != Method::march) {
-            throw std::logic_error("the device renders --method march only");
+        const Model& model = settings.model;
+        const bool paper = model.lights == Lights::listed &&
+                           model.visibility == Visibility::none &&
+                           model.emitter == Emitter::isotropic &&
+                           model.scattering == Scattering::single && model.surfaces == Surfaces::dim;
+        if (settings.method != Method::march || !paper) {
+            throw UsageError("the device renders --method march --model paper: for any other "
+                             "model take --method reference");
         }
         if (product.width == 0 || product.height == 0) {
             throw UsageError("--size: width and height must be at least 1 pixel");
