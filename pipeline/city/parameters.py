@@ -121,13 +121,13 @@ class CityParameters:
     )
     facade_texture_size: float = number(10.0, 0.1, 1000, "width of a texture from a file", "m")
     facade_reflectance: tuple[float, ...] = numbers(
-        (0.5, 0.5, 0.5), 0, 1, "linear reflectance of facades; multiplies the texture"
+        (0.16, 0.16, 0.16), 0, 1, "linear reflectance of facades; multiplies the texture"
     )
     roof_reflectance: tuple[float, ...] = numbers(
-        (0.3, 0.3, 0.3), 0, 1, "linear reflectance of roofs"
+        (0.06, 0.06, 0.06), 0, 1, "linear reflectance of roofs"
     )
     ground_reflectance: tuple[float, ...] = numbers(
-        (0.2, 0.2, 0.2), 0, 1, "linear reflectance of the ground"
+        (0.03, 0.03, 0.03), 0, 1, "linear reflectance of the ground"
     )
 
     seed: int = integer(1, 0, 2**63 - 1, "seed of heights, lit windows, colours and textures")
