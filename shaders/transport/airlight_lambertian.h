@@ -118,19 +118,17 @@ NIGHTCITY_FUNCTION float airlightLambertian(AirlightInterval interval, vec3 dire
     if (rule.count == 1) {
         return sine.area * airlightAttenuation(i, extinction, middle, d);
     }
-    // The sine has no derivative where cos = 0: many nodes are better spent on the angle.
-    bool bySine = rule.graded || rule.count <= 3;
-    float arc = airlightArc(i);
+    float arc = rule.bySine ? 0.0f : airlightArc(i);
     float sum = 0.0f;
     for (int index = 0; index < rule.count; ++index) {
         vec2 node = airlightNode(rule, index);
-        float step = bySine ? airlightStepOfSine(i, sine, node.x)
-                            : airlightStepOfArc(i, arc, node.x);
+        float step = rule.bySine ? airlightStepOfSine(i, sine, node.x)
+                                 : airlightStepOfArc(i, arc, node.x);
         d = airlightDistance(i, step);
-        float cosine = bySine ? 1.0f : (lobe.atBegin + lobe.slope * step) / d;
+        float cosine = rule.bySine ? 1.0f : (lobe.atBegin + lobe.slope * step) / d;
         sum += node.y * cosine * airlightAttenuation(i, extinction, step, d);
     }
-    return sum * (bySine ? sine.area : arc / i.h);
+    return sum * (rule.bySine ? sine.area : arc / i.h);
 }
 
 NIGHTCITY_END

@@ -28,6 +28,7 @@ NIGHTCITY_CONST float kAirlightTailShare = 0.125f;
 struct AirlightRule {
     int count;    // nodes, 1 to kGaussMost
     bool graded;  // nodes crowd towards the end: x -> 1 - x^3
+    bool bySine;  // of a lobe: nodes lie in the sine, not in the angle
 };
 
 // The optical depth where an interval is clipped so that the tail is at most
@@ -38,7 +39,18 @@ NIGHTCITY_FUNCTION float airlightClipDepth(float tolerance, int emitter) {
     return emitter == kAirlightLambertian ? depth + 2.0f : depth;
 }
 
-// log2 of the error of one node; b is log2 of the whole depth, s log2 of the whole
+// An upper bound of the error of one node by its two leading terms, for intervals that
+// are not much wider on one side of the midpoint than on the other: a bend of t + d
+// (zero for both parts alike, but for a cosine lobe), and exp over a straight line,
+// depth^2 / 24. A tenth of the depth bounds it everywhere.
+NIGHTCITY_FUNCTION float airlightOneNodeBound(int emitter, float first, float second) {
+    float whole = first + second;
+    float bend = 0.2f * abs(second - first);
+    bend += emitter == kAirlightLambertian ? 0.02f * whole : 0.0f;
+    return min(0.1f * whole, max(bend, whole * whole * (1.0f / 22.0f)));
+}
+
+// log2 of the error of one node, for any interval; b is log2 of the whole depth, s log2 of the whole
 // over the smaller of the two parts.
 NIGHTCITY_FUNCTION float airlightOneNodeError(int emitter, float b, float s) {
     int k = 6 * emitter;
@@ -53,10 +65,11 @@ NIGHTCITY_FUNCTION AirlightRule airlightRule(int emitter, float first, float sec
     AirlightRule rule;
     rule.count = 1;
     rule.graded = false;
-    float whole = first + second;
-    if (whole <= 8.0f * tolerance) {
-        return rule;  // the error of one node is below a tenth of the depth
+    rule.bySine = true;
+    if (airlightOneNodeBound(emitter, first, second) <= 0.8f * tolerance) {
+        return rule;
     }
+    float whole = first + second;
     float b = log2(min(whole, 14.0f));
     float s = min(log2(whole) - log2(max(min(first, second), 1e-30f)), 20.0f);
     float c = -log2(tolerance);
@@ -80,6 +93,9 @@ NIGHTCITY_FUNCTION AirlightRule airlightRule(int emitter, float first, float sec
                kAirlightPlain[k + 9] * c * c;
     }
     rule.count = clamp(int(ceil(need)) + 1, 2, kGaussMost);
+    // The sine has no derivative where cos = 0: many nodes are better spent on the angle,
+    // unless the lobe is all there is to integrate.
+    rule.bySine = rule.graded || rule.count <= 3 || whole < 0.02f;
     return rule;
 }
 

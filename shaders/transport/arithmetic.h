@@ -17,6 +17,7 @@ using glm::clamp;
 using glm::cross;
 using glm::dot;
 using glm::exp;
+using glm::exp2;
 using glm::log2;
 using glm::max;
 using glm::min;

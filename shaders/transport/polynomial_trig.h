@@ -8,7 +8,7 @@
 //
 // Largest errors, float arithmetic included, as the tests measure them:
 // relative 2e-7 for atanUnit and arcOf, relative 2e-7 for the sine and absolute
-// 1.2e-7 for the cosine of quarterTurn. Cost: 8, 12 and 12 multiply-adds, and
+// 1.3e-7 for the cosine of quarterTurn. Cost: 8, 12 and 12 multiply-adds, and
 // one division and a few selections for arcOf.
 #ifndef NIGHTCITY_TRANSPORT_POLYNOMIAL_TRIG_H
 #define NIGHTCITY_TRANSPORT_POLYNOMIAL_TRIG_H
