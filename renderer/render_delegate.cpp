@@ -17,6 +17,8 @@
 namespace nightcity {
 namespace {
 
+constexpr std::uint64_t kMostPixels = 1u << 30;  // pixel numbers are 32 bits on the device
+
 class VulkanDelegate final : public RenderDelegate {
 public:
     explicit VulkanDelegate(const DeviceOptions& options)
@@ -101,6 +103,10 @@ private:
         }
         if (product.width == 0 || product.height == 0) {
             throw UsageError("--size: width and height must be at least 1 pixel");
+        }
+        if (std::uint64_t{product.width} * product.height > kMostPixels) {
+            throw UsageError("--size: a frame has at most " + std::to_string(kMostPixels) +
+                             " pixels; render it in tiles");
         }
         if (settings.subdivisions == 0) {
             throw UsageError("--subdivisions must be at least 1");

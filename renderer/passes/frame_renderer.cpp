@@ -41,7 +41,7 @@ FrameRenderer::FrameRenderer(gpu::Device& device, gpu::Commands& commands)
 
 FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera,
                                 const RenderProduct& product, const RenderSettings& settings,
-                                const ProgressCallback& progress, Frame& frame) {
+                                const std::function<void(double)>& progress, Frame& frame) {
     Work work{scene, settings, samplePositions(settings), 0, {}};
     work.pixels = product.pixels.empty()
                       ? std::uint64_t{product.width} * product.height

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -14,7 +15,6 @@
 #include "passes/band_buffers.h"
 #include "passes/gpu_scene.h"
 #include "passes/pass_pipelines.h"
-#include "render_delegate.h"
 #include "settings.h"
 
 namespace nightcity {
@@ -32,10 +32,11 @@ public:
 
     // To be called when the scene was synced: pipelines and bindings may be stale.
     void sceneChanged() { bound_ = false; }
-    // `camera` as it is at the product's frame. Fills `frame`.
+    // `camera` as it is at the product's frame. Fills `frame`, which has the product's size;
+    // `progress` (share done, 0 to 1) may be empty.
     FrameCost render(const GpuScene& scene, const CameraFrame& camera,
                      const RenderProduct& product, const RenderSettings& settings,
-                     const ProgressCallback& progress, Frame& frame);
+                     const std::function<void(double)>& progress, Frame& frame);
 
 private:
     struct Work;  // one render call

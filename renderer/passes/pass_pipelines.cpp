@@ -11,6 +11,16 @@
 namespace nightcity {
 namespace {
 
+// The layouts that GL_EXT_scalar_block_layout gives the same records.
+static_assert(sizeof(MarchMedium) == 20);
+static_assert(sizeof(SceneTable) == 14 * 8 + 16);
+static_assert(sizeof(FrameTable) == 14 * 8 + 24 + sizeof(CameraFrame) + 12);
+static_assert(sizeof(PushConstants) == 32);  // devices give at least 128
+static_assert(sizeof(SurfaceRecord) == 32);
+static_assert(sizeof(RayProgress) == 32);
+static_assert(sizeof(Segment) == 28);
+static_assert(sizeof(PassCounters) == 12);
+
 const gpu::Binding kStructure{NIGHTCITY_BINDING_STRUCTURE,
                               VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1};
 
