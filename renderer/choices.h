@@ -28,11 +28,12 @@ inline constexpr std::span<const Choice<Value>> kChoices{};
     template <>                                                          \
     inline constexpr std::span<const Choice<Value>> kChoices<Value>{k##Value##Names};
 
-NIGHTCITY_CHOICES(Lights, {"listed", Lights::listed})
-NIGHTCITY_CHOICES(Visibility, {"none", Visibility::none})
-NIGHTCITY_CHOICES(Emitter, {"isotropic", Emitter::isotropic})
+NIGHTCITY_CHOICES(Lights, {"listed", Lights::listed}, {"all", Lights::all})
+NIGHTCITY_CHOICES(Visibility, {"none", Visibility::none}, {"full", Visibility::full})
+NIGHTCITY_CHOICES(Emitter, {"isotropic", Emitter::isotropic},
+                  {"lambertian", Emitter::lambertian}, {"pane", Emitter::pane})
 NIGHTCITY_CHOICES(Scattering, {"single", Scattering::single})
-NIGHTCITY_CHOICES(Surfaces, {"dim", Surfaces::dim})
+NIGHTCITY_CHOICES(Surfaces, {"dim", Surfaces::dim}, {"lit", Surfaces::lit})
 NIGHTCITY_CHOICES(Method, {"march", Method::march}, {"reference", Method::reference})
 NIGHTCITY_CHOICES(MarchOrder, {"steps", MarchOrder::steps}, {"lights", MarchOrder::lights})
 NIGHTCITY_CHOICES(LightStorage, {"uniform", LightStorage::uniform},

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame_source.h"
 
+#include <iomanip>
 #include <optional>
+#include <sstream>
 
 #include "reference/reference_renderer.h"
 
@@ -43,16 +45,24 @@ public:
     Frame render(const RenderProduct& product, const ProgressCallback& progress) override {
         ReferenceImage image = renderReference(scene_, product, settings_, progress);
         statistics_ = image.statistics;
+        if (settings_.tolerance) {
+            std::ostringstream sentence;
+            sentence << std::setprecision(2) << "reference: integrated to " << image.error
+                     << " of a pixel's glow at worst; far windows left out bring at most "
+                     << image.leftOut;
+            notes_ = {sentence.str()};
+        }
         return std::move(image.frame);
     }
 
     RenderStatistics statistics() const override { return statistics_; }
-    std::vector<std::string> notes() const override { return {}; }
+    std::vector<std::string> notes() const override { return notes_; }
 
 private:
     const FlatScene& scene_;
     const RenderSettings& settings_;
     RenderStatistics statistics_;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ std::string size(std::uint32_t width, std::uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-std::string number(float value) {
+std::string number(double value) {
     std::ostringstream out;
     out.precision(9);
     out << value;
@@ -72,7 +72,9 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
          {"surfaces", choiceName(settings.model.surfaces)},
          {"media", settings.media ? "on" : "off"},
          {"method", choiceName(settings.method)},
-         {"subdivisions", std::to_string(settings.subdivisions)},
+         settings.tolerance
+             ? std::pair<std::string, std::string>("tolerance", number(*settings.tolerance))
+             : std::pair<std::string, std::string>("subdivisions", std::to_string(settings.subdivisions)),
          {"lightCap", settings.lightCap ? std::to_string(*settings.lightCap) : "none"},
          {"pixelSamples", std::to_string(settings.pixelSamples)},
          {"filter", choiceName(settings.filter)},

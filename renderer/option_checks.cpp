@@ -63,8 +63,30 @@ void checkSequence(const Options& options) {
             "--skip-existing and --repeat exclude each other");
 }
 
+// What only the exact integral knows.
+void checkMarchedModel(const Model& model) {
+    const Model paper;
+    const auto same = [](auto value, auto known, const std::string& option, const char* name) {
+        require(value == known, option + ": march knows only " + name +
+                                    "; --method reference without --subdivisions knows all");
+    };
+    same(model.lights, paper.lights, "--lights", "listed");
+    same(model.visibility, paper.visibility, "--visibility", "none");
+    same(model.emitter, paper.emitter, "--emitter", "isotropic");
+    same(model.surfaces, paper.surfaces, "--surfaces", "dim");
+}
+
 void checkMethod(const Options& options, const Given& given) {
-    if (options.settings.method == Method::march) {
+    const RenderSettings& settings = options.settings;
+    const bool exact = settings.method == Method::reference && !given("--subdivisions");
+    require(!given("--tolerance") || exact,
+            "--tolerance is for --method reference without --subdivisions; the march takes steps");
+    const double tolerance = settings.tolerance.value_or(1);
+    require(tolerance >= 1e-7 && tolerance <= 1, "--tolerance must lie from 1e-7 to 1");
+    if (!exact) {
+        checkMarchedModel(settings.model);
+    }
+    if (settings.method == Method::march) {
         return;
     }
     for (const char* name : {"--march-order", "--light-storage", "--device", "--validation"}) {

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint32_t kMaxSide = 65536;                        // pixels
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;     // of one image
+constexpr double kJudgedTolerance = 0.01;  // relative
 constexpr std::uint32_t kMaxCount = 1u << 24;  // of steps, samples, repeats, pixels, lights
 
 std::optional<std::uint32_t> wholeNumber(std::string_view text) {
@@ -111,14 +112,21 @@ void addModel(CLI::App& app, Options& options) {
     app.add_option_function<std::string>(
            "--model",
            [&model](const std::string& text) {
-               if (text != "paper") {
-                   throw UsageError("--model " + text + " is not known; there is paper");
+               if (text == "paper") {
+                   model = {};
+               } else if (text == "single") {
+                   model = {.lights = Lights::all,
+                            .visibility = Visibility::full,
+                            .emitter = Emitter::pane,
+                            .scattering = Scattering::single,
+                            .surfaces = Surfaces::dim};
+               } else {
+                   throw UsageError("--model " + text + " is not known; there is paper and single");
                }
-               model = {};
            },
            "which physics: paper is --lights listed --visibility none --emitter isotropic "
-           "--scattering single --surfaces dim")
-        ->type_name("paper")
+           "--scattering single --surfaces dim; single is all, full, pane, single, dim")
+        ->type_name("paper|single")
         ->default_str("paper");
     addChoice(app, "--lights", model.lights, "which windows light a point");
     addChoice(app, "--visibility", model.visibility, "what hides them");
@@ -141,8 +149,13 @@ void addModel(CLI::App& app, Options& options) {
 void addMethod(CLI::App& app, Options& options) {
     RenderSettings& settings = options.settings;
     addChoice(app, "--method", settings.method,
-              "march on the device, or the same in double precision on the CPU");
-    addCount(app, "--subdivisions", settings.subdivisions, "steps in each media box");
+              "march on the device; or in double precision on the CPU the exact integral, with "
+              "--subdivisions the same march");
+    addCount(app, "--subdivisions", settings.subdivisions, "steps of the march in each media box");
+    app.add_option("--tolerance", settings.tolerance,
+                   "of what the reference shall judge: it is exact to a tenth of it, relative "
+                   "(default 0.01)")
+        ->type_name("T");
     addChoice(app, "--march-order", settings.marchOrder, "which loop of the march is outside");
     app.add_option("--light-cap", settings.lightCap, "at most so many lit windows a media box")
         ->check(CLI::Range(1u, kMaxCount).description(""))
@@ -198,6 +211,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv, std::ostr
         options.progress = ProgressStyle::none;
     }
     checkCombinations(options, [&](const char* name) { return app.count(name) > 0; });
+    if (options.settings.method == Method::reference && app.count("--subdivisions") == 0 &&
+        !options.settings.tolerance) {
+        options.settings.tolerance = kJudgedTolerance;
+    }
     return options;
 }
 

@@ -10,11 +10,21 @@ namespace nightcity {
 
 Accuracy judgeAccuracy(double tolerance, std::size_t windows) {
     constexpr std::size_t kManyWindows = 100'000;
-    constexpr double kMillionth = 1e-6;
-    const double leftOut =
-        windows > kManyWindows ? std::max(kMillionth, tolerance / 100) : kMillionth;
-    return {tolerance / 10, std::min(leftOut, tolerance / 100)};
+    const double hundredth = tolerance / 100;
+    return {tolerance / 10, windows > kManyWindows ? hundredth : std::min(1e-6, hundredth)};
 }
+
+namespace {
+
+void addStatedError(const WindowSum& sum, RayResult& result) {
+    const double mean = (sum.value.x + sum.value.y + sum.value.z) / 3;
+    if (mean > 0 && std::isfinite(mean)) {
+        result.error = std::max(result.error, sum.error / mean);
+        result.leftOut = std::max(result.leftOut, sum.leftOut / mean);
+    }
+}
+
+}  // namespace
 
 ExactIntegral::ExactIntegral(const FlatScene& scene, int frame, const RenderSettings& settings,
                              const Accuracy& accuracy)
@@ -39,6 +49,7 @@ RayResult ExactIntegral::trace(const Ray& ray) const {
             result.mediaId = result.mediaId < 0 ? float(box.mediaId) : result.mediaId;
         }
         result.glow = glow.value;
+        addStatedError(glow, result);
         result.lightEvaluations += glow.windows;
         result.transmittance = std::exp(-opticalDepth);
     }
@@ -49,6 +60,7 @@ RayResult ExactIntegral::trace(const Ray& ray) const {
         }
         const WindowSum light = surfaceLight_.irradiance(point);
         result.surface.radiance += result.surface.reflectance / std::numbers::pi * light.value;
+        addStatedError(light, result);
         result.lightEvaluations += light.windows;
     }
     return result;

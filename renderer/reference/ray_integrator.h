@@ -18,6 +18,10 @@ struct RayResult {
     SurfaceHit surface;    // its radiance is that at the surface, before the haze
     float mediaId = -1;    // of the first media box on the ray
     std::uint64_t lightEvaluations = 0;
+    // Of an exact integral: bounds of what it is off by and of what it leaves out,
+    // relative to the mean of the channels; the larger of glow and surface light.
+    double error = 0;
+    double leftOut = 0;
 };
 
 class RayIntegrator {

@@ -3,9 +3,9 @@
 #include "reference/reference_renderer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
 
 #include "reference/exact_integral.h"
 #include "reference/march.h"
@@ -29,6 +29,19 @@ std::unique_ptr<RayIntegrator> makeIntegrator(const FlatScene& scene, int frame,
     return std::make_unique<March>(scene, frame, settings);
 }
 
+// Light terms computed, and the largest stated errors.
+struct PixelCost {
+    std::uint64_t lightEvaluations = 0;
+    double error = 0;
+    double leftOut = 0;
+
+    void add(const PixelCost& other) {
+        lightEvaluations += other.lightEvaluations;
+        error = std::max(error, other.error);
+        leftOut = std::max(leftOut, other.leftOut);
+    }
+};
+
 class PixelRenderer {
 public:
     PixelRenderer(const FlatScene& scene, const RenderProduct& product,
@@ -39,11 +52,11 @@ public:
           positions_(samplePositions(settings)),
           centre_(centreSample(positions_)) {}
 
-    // Writes entry `index` of the frame; returns the light terms computed.
-    std::uint64_t render(glm::uvec2 pixel, std::size_t index, Frame& frame) const {
+    // Writes entry `index` of the frame.
+    PixelCost render(glm::uvec2 pixel, std::size_t index, Frame& frame) const {
         glm::dvec3 glow(0), surface(0);
         double transmittance = 0, alpha = 0;
-        std::uint64_t evaluations = 0;
+        PixelCost cost;
         for (std::size_t i = 0; i < positions_.size(); ++i) {
             const glm::dvec2 image = glm::dvec2(pixel) + 0.5 + glm::dvec2(positions_[i]);
             const Ray ray = cameraRay(camera_, product_.cameraOffset, image,
@@ -53,7 +66,7 @@ public:
             surface += result.surface.radiance * result.transmittance;
             transmittance += result.transmittance;
             alpha += result.surface.isSky() ? 1 - result.transmittance : 1;
-            evaluations += result.lightEvaluations;
+            cost.add({result.lightEvaluations, result.error, result.leftOut});
             if (i == centre_) {
                 writeCentre(ray, result, index, frame);
             }
@@ -63,7 +76,7 @@ public:
         frame.glow[index] = glm::vec3(glow * weight);
         frame.surface[index] = glm::vec3(surface * weight);
         frame.transmittance[index] = float(transmittance * weight);
-        return evaluations;
+        return cost;
     }
 
 private:
@@ -103,21 +116,27 @@ ReferenceImage renderReference(const FlatScene& scene, const RenderProduct& prod
         listed ? product.pixels.size() : std::size_t{product.width} * product.height;
     image.frame.resize(listed ? std::uint32_t(count) : product.width,
                        listed ? 1 : product.height);
-    std::atomic<std::uint64_t> evaluations{0};
+    PixelCost cost;
+    std::mutex mutex;
     const std::size_t unitPixels = settings.tolerance ? kExactPixels : kMarchedPixels;
     const auto unit = [&](std::size_t index) {
+        PixelCost unitCost;
         const std::size_t last = std::min(count, (index + 1) * unitPixels);
         for (std::size_t i = index * unitPixels; i < last; ++i) {
             const glm::uvec2 pixel =
                 listed ? product.pixels[i] : glm::uvec2(i % product.width, i / product.width);
-            evaluations += renderer.render(pixel, i, image.frame);
+            unitCost.add(renderer.render(pixel, i, image.frame));
         }
+        const std::lock_guard lock(mutex);
+        cost.add(unitCost);
     };
     forEachUnit((count + unitPixels - 1) / unitPixels, unit, progress);
     image.statistics.bakeMilliseconds = milliseconds(ready - start);
     image.statistics.frameMilliseconds = milliseconds(Clock::now() - ready);
     image.statistics.passes = {{"reference", image.statistics.frameMilliseconds}};
-    image.statistics.lightEvaluations = evaluations;
+    image.statistics.lightEvaluations = cost.lightEvaluations;
+    image.error = cost.error;
+    image.leftOut = cost.leftOut;
     image.statistics.device = "CPU, double precision";
     return image;
 }

@@ -17,6 +17,9 @@ namespace nightcity {
 struct ReferenceImage {
     Frame frame;
     RenderStatistics statistics;
+    // The largest of all rays (RayResult); 0 for a march.
+    double error = 0;
+    double leftOut = 0;
 };
 
 // The exact integral where settings.tolerance is set, else the march of
