@@ -30,6 +30,19 @@ std::vector<RenderStatistics> steadyFrames(const std::vector<RenderStatistics>& 
                               : std::vector<RenderStatistics>(frames.begin() + 1, frames.end());
 }
 
+// Over the frames that have such a pass.
+double medianOfPass(const std::vector<RenderStatistics>& frames, const std::string& name) {
+    std::vector<double> milliseconds;
+    for (const RenderStatistics& frame : frames) {
+        for (const PassTime& pass : frame.passes) {
+            if (pass.name == name) {
+                milliseconds.push_back(pass.milliseconds);
+            }
+        }
+    }
+    return quantile(std::move(milliseconds), 0.5);
+}
+
 nlohmann::ordered_json timing(const StatisticsReport& report) {
     const std::vector<RenderStatistics> steady = steadyFrames(report.frames);
     std::vector<double> milliseconds;
@@ -37,12 +50,8 @@ nlohmann::ordered_json timing(const StatisticsReport& report) {
         milliseconds.push_back(frame.frameMilliseconds);
     }
     nlohmann::ordered_json passes = nlohmann::ordered_json::object();
-    for (std::size_t p = 0; p < report.frames.back().passes.size(); ++p) {
-        std::vector<double> values;
-        for (const RenderStatistics& frame : steady) {
-            values.push_back(frame.passes.at(p).milliseconds);
-        }
-        passes[report.frames.back().passes[p].name] = quantile(values, 0.5);
+    for (const PassTime& pass : report.frames.back().passes) {
+        passes[pass.name] = medianOfPass(steady, pass.name);
     }
     return {{"load_ms", report.loadMilliseconds},
             {"bake_ms", report.bakeMilliseconds},
