@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "reference/convex_face.h"
 
@@ -23,6 +24,7 @@ struct ThickTriangle {
 
     ThickTriangle(glm::dvec3 point, double ballRadius, glm::dvec3 begin, glm::dvec3 end);
     bool mayTouch(const Bounds& box) const;
+    bool mayTouch(std::span<const glm::dvec3> face) const;
 };
 
 ThickTriangle::ThickTriangle(glm::dvec3 point, double ballRadius, glm::dvec3 begin, glm::dvec3 end)
@@ -58,6 +60,22 @@ bool ThickTriangle::mayTouch(const Bounds& box) const {
         const double middle = glm::dot(axis[i], centre);
         const double reach = glm::dot(glm::abs(axis[i]), half);
         if (middle + reach < least[i] || middle - reach > most[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Closer than its bounds, which are wide about a wall that is turned.
+bool ThickTriangle::mayTouch(std::span<const glm::dvec3> face) const {
+    for (std::size_t i = 0; i < 4; ++i) {
+        double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+        for (const glm::dvec3 point : face) {
+            const double place = glm::dot(axis[i], point);
+            lowest = std::min(lowest, place);
+            highest = std::max(highest, place);
+        }
+        if (highest < least[i] || lowest > most[i]) {
             return false;
         }
     }
@@ -110,7 +128,11 @@ std::vector<std::uint32_t> Occluders::between(glm::dvec3 point, double radius, g
     const ThickTriangle region(point, radius, begin, end);
     std::vector<std::uint32_t> faces;
     tree_->visitWhere([&](const Bounds& box) { return region.mayTouch(box); },
-                      [&](std::uint32_t index) { faces.push_back(index); });
+                      [&](std::uint32_t index) {
+                          if (region.mayTouch(face(index))) {
+                              faces.push_back(index);
+                          }
+                      });
     std::sort(faces.begin(), faces.end());
     return faces;
 }
