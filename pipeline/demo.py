@@ -28,36 +28,38 @@ def demo(output: Path, town: Path | None) -> None:
     if not town.is_file():
         raise UsageError(f"{town}: no such CityJSON file; name one with --town")
     output.mkdir(parents=True, exist_ok=True)
-    made: list[Path] = []
     _say("generating the paper's 4 x 4 city")
-    made += _pictures(generate(load_parameters("paper-4x4")), output / "paper-4x4", made_of(4))
+    made = _pictures(generate(load_parameters("paper-4x4")), output / "paper-4x4", samples=4)
+    scene = output / "paper-4x4.scene"
+    _say("rendering the same as OpenEXR, with every channel")
+    made.append(_render(scene, "overview75", output / "paper-4x4.overview75.exr", samples=1))
     _say(f"importing {town.name}")
-    made += _pictures(import_town(town, TownOptions()), output / "town", made_of(1))
+    made += _pictures(import_town(town, TownOptions()), output / "town", samples=2)
     _say("charting speed against accuracy")
-    made += chart(output / "paper-4x4.scene", output / "chart", "overview75", quick=True)
+    made += chart(scene, output / "chart", "overview75", quick=True)
     print("made:")
     for path in made:
         print(f"  {path}")
 
 
-def made_of(samples: int) -> list[str]:
-    """Renderer options of the demo's pictures: the paper's method, ``samples`` a pixel."""
-    return ["--model", "paper", "--method", "march", "--pixel-samples", str(samples)]
-
-
-def _pictures(city: City, stem: Path, options: list[str]) -> list[Path]:
+def _pictures(city: City, stem: Path, samples: int) -> list[Path]:
     stage, scene = stem.with_suffix(".usda"), stem.with_suffix(".scene")
-    made = write_stage(city, stage)[-1:]
+    write_stage(city, stage)
     export_stage(stage, scene)
+    made = [stage, scene]
     for camera in ("overview75", "street"):
         picture = stem.with_name(f"{stem.name}.{camera}.png")
-        exr = picture.with_suffix(".exr")
         _say(f"rendering {picture.name}")
-        view = [scene, "--camera", camera, "--size", _SIZE, *options]
-        run_renderer([*view, "-o", exr])
-        run_renderer([*view, "-o", picture])
-        made += [exr, picture]
-    return [stage, scene, *made[1:]]
+        made.append(_render(scene, camera, picture, samples))
+    return made
+
+
+def _render(scene: Path, camera: str, picture: Path, samples: int) -> Path:
+    run_renderer(
+        [scene, "--camera", camera, "--size", _SIZE, "--model", "paper", "--method", "march"]
+        + ["--pixel-samples", str(samples), "--quiet", "-o", picture]
+    )
+    return picture
 
 
 def _say(text: str) -> None:

@@ -27,7 +27,7 @@ struct Options {
     std::optional<std::uint32_t> pixelCount;            // --pixels N
     std::optional<std::filesystem::path> pixelFile;     // --pixels FILE
     std::uint32_t repeat = 1;
-    float exposure = 1;                     // EV: windows are white, glow shows, the ground stays dark
+    float exposure = 2;                     // EV: windows are white, glow shows, the ground stays dark
     std::optional<std::vector<std::string>> aovs;  // none: the stage's, else all
     DeviceOptions device;
     bool listDevices = false;
