@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <functional>
+#include <map>
 #include <string>
 
 #include "airlight_cases.h"
@@ -129,6 +130,30 @@ void costs(std::size_t count, const char* name, PointCase (*draw)(RandomNumbers&
     }
 }
 
+// How far off a point of light in place of the pane is, by sides to the ray.
+void pointForPane(std::size_t count) {
+    RandomNumbers random(10);
+    std::map<int, std::vector<double>> errors;  // by log2 of the sides
+    for (std::size_t k = 0; k < count; ++k) {
+        const PaneCase c = randomPaneCase(random, 0);
+        const PaneFrame pane = paneFrame(c.fromCentre, c.direction, c.halfU, c.halfV);
+        const AirlightInterval i = airlightInterval(pane.origin, pane.direction, c.begin, c.end);
+        const double exact = exactPane(c);
+        if (paneSides(i, pane.a, pane.b) >= 0.25f && exact > 1e-30) {
+            const float point =
+                airlightLambertian(i, pane.direction, vec3(0, 0, 1), c.extinction, 1e-4f);
+            errors[int(std::floor(std::log2(paneSides(i, pane.a, pane.b))))].push_back(
+                std::abs(point / exact - 1));
+        }
+    }
+    std::printf("\na point for the pane, by sides between ray and pane\n");
+    for (const auto& [power, list] : errors) {
+        const ErrorFigures e = errorFigures(list);
+        std::printf("%5g to %-5g %9zu  p50 %8.1e  p99 %8.1e  max %8.1e\n", std::exp2(power),
+                    std::exp2(power + 1), list.size(), e.p50, e.p99, e.max);
+    }
+}
+
 PaneCase streetPane(RandomNumbers& random) {
     const PointCase c = randomStreetCase(random);
     const glm::vec3 up(0, 0, 0.75f);
@@ -160,6 +185,7 @@ void printTables(std::size_t count) {
     paneErrors(count, 0);
     paneErrors(std::max<std::size_t>(count / 500, 100), 0.01);
     paneErrors(std::max<std::size_t>(count / 500, 100), 0.1);
+    pointForPane(count);
     std::printf("\ncost\n");
     const std::size_t timed = std::max<std::size_t>(count / 4, 1000);
     costs(timed, "street", randomStreetCase);
