@@ -11,6 +11,7 @@
 
 layout(local_size_x = kGroupSize) in;
 layout(constant_id = NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE) const uint kLightsOutside = 1;
+layout(constant_id = NIGHTCITY_CONSTANT_SUBDIVISIONS) const uint kSteps = 25;
 
 // One segment in the coordinates of the march.
 struct MarchSegment {
@@ -34,10 +35,10 @@ uint runLength(vec4 run) {
 }
 
 // The sum over the steps for one light.
-float overSteps(MarchSegment segment, vec3 startToLight, uint steps) {
+float overSteps(MarchSegment segment, vec3 startToLight) {
     float sum = 0.0;
     uint step = 0;
-    for (; step + 5 <= steps; step += 5) {  // unrolled: a loop costs as much as a step
+    for (; step + 5 <= kSteps; step += 5) {  // unrolled: a loop costs as much as a step
         float midpoint = float(step) + 0.5;
         sum += atStep(segment, startToLight, midpoint) +
                atStep(segment, startToLight, midpoint + 1.0) +
@@ -45,21 +46,21 @@ float overSteps(MarchSegment segment, vec3 startToLight, uint steps) {
                atStep(segment, startToLight, midpoint + 3.0) +
                atStep(segment, startToLight, midpoint + 4.0);
     }
-    for (; step < steps; ++step) {
+    for (; step < kSteps; ++step) {
         sum += atStep(segment, startToLight, float(step) + 0.5);
     }
     return sum;
 }
 
 // For every light, all steps.
-vec3 marchLightsOutside(MarchSegment segment, uint steps) {
+vec3 marchLightsOutside(MarchSegment segment) {
     vec3 sum = vec3(0.0);
     for (uint entry = segment.firstEntry; entry < segment.endEntry;) {
         vec4 run = lightEntry(entry++);
         uint end = entry + runLength(run);
         float fluence = 0.0;
         for (; entry < end; ++entry) {
-            fluence += overSteps(segment, lightEntry(entry).xyz - segment.start, steps);
+            fluence += overSteps(segment, lightEntry(entry).xyz - segment.start);
         }
         sum += run.rgb * fluence;
     }
@@ -67,9 +68,9 @@ vec3 marchLightsOutside(MarchSegment segment, uint steps) {
 }
 
 // For every step, all lights: the loop as the paper describes it.
-vec3 marchStepsOutside(MarchSegment segment, uint steps) {
+vec3 marchStepsOutside(MarchSegment segment) {
     vec3 sum = vec3(0.0);
-    for (uint step = 0; step < steps; ++step) {
+    for (uint step = 0; step < kSteps; ++step) {
         float midpoint = float(step) + 0.5;
         vec3 position = fma(vec3(midpoint), segment.stride, segment.start);
         float opticalDepth = fma(midpoint, segment.stepDepth, segment.opticalDepth);
@@ -104,18 +105,17 @@ void main() {
         return;
     }
     RayProgress progress = RayProgressArray(frameTable.progress).at[index];
-    uint steps = frameTable.subdivisions;
     uint lightSegments = 0u;
     for (uint slot = 0; slot < progress.segments; ++slot) {
         Segment record = SegmentArray(frameTable.segments).at[slot * frameTable.bandRays + index];
         MarchMedium medium = MarchMediumArray(sceneTable.marchMedia).at[record.box];
-        float stepLength = length(record.span) / float(steps);
+        float stepLength = length(record.span) / float(kSteps);
         MarchSegment segment =
-            MarchSegment(record.start, record.span / float(steps), medium.extinction,
+            MarchSegment(record.start, record.span / float(kSteps), medium.extinction,
                          medium.extinction * stepLength, progress.opticalDepth,
                          medium.firstEntry, medium.firstEntry + medium.entryCount);
-        vec3 sum = kLightsOutside != 0u ? marchLightsOutside(segment, steps)
-                                        : marchStepsOutside(segment, steps);
+        vec3 sum = kLightsOutside != 0u ? marchLightsOutside(segment)
+                                        : marchStepsOutside(segment);
         progress.glow += inScatterScale(medium.scattering, stepLength) * sum;
         progress.opticalDepth += medium.extinction * length(record.span);
         lightSegments += medium.lightCount;

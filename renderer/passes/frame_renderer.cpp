@@ -72,7 +72,8 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
 }
 
 void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderSettings& settings) {
-    const PipelineChoice choice{settings.marchOrder, scene.lights().pages(), settings.media};
+    const PipelineChoice choice{settings.marchOrder, scene.lights().pages(),
+                                settings.subdivisions, settings.media};
     if (!pipelines_ || pipelines_->choice != choice) {
         pipelines_ = std::make_unique<PassPipelines>(device_, choice);
         bound_ = false;
@@ -95,7 +96,6 @@ void FrameRenderer::prepareBand(const Work& work, const CameraFrame& camera,
     setPosition(table, camera, product.cameraOffset);
     table.width = product.width;
     table.height = product.height;
-    table.subdivisions = work.settings.subdivisions;
     table.sampleCount = static_cast<std::uint32_t>(work.samples.size());
     table.centreSample = static_cast<std::uint32_t>(centreSample(work.samples));
     band_->prepare(commands_, table, product.pixels, work.samples);

@@ -14,7 +14,7 @@ namespace {
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(MarchMedium) == 20);
 static_assert(sizeof(SceneTable) == 14 * 8 + 16);
-static_assert(sizeof(FrameTable) == 14 * 8 + 24 + sizeof(CameraFrame) + 12);
+static_assert(sizeof(FrameTable) == 14 * 8 + 20 + sizeof(CameraFrame) + 12);
 static_assert(sizeof(PushConstants) == 32);  // devices give at least 128
 static_assert(sizeof(SurfaceRecord) == 32);
 static_assert(sizeof(RayProgress) == 32);
@@ -38,12 +38,13 @@ gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
 }
 
 std::vector<std::uint32_t> marchConstants(const PipelineChoice& choice) {
-    std::vector<std::uint32_t> constants(4);
+    std::vector<std::uint32_t> constants(5);
     constants[NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE] = choice.order == MarchOrder::lights ? 1 : 0;
     constants[NIGHTCITY_CONSTANT_UNIFORM_PAGES] =
         choice.lights.storage == LightStorage::uniform ? 1 : 0;
     constants[NIGHTCITY_CONSTANT_PAGE_COUNT] = choice.lights.count;
     constants[NIGHTCITY_CONSTANT_PAGE_ENTRIES] = choice.lights.entriesEach;
+    constants[NIGHTCITY_CONSTANT_SUBDIVISIONS] = choice.subdivisions;
     return constants;
 }
 

@@ -14,6 +14,7 @@ namespace nightcity {
 struct PipelineChoice {
     MarchOrder order = MarchOrder::lights;
     LightPages lights;
+    std::uint32_t subdivisions = 25;
     bool media = true;
 
     bool operator==(const PipelineChoice&) const = default;

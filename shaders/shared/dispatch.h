@@ -29,6 +29,7 @@ NIGHTCITY_CONST uint kMaskLoosePanes = 4u;   // emitters that stand on no facade
 #define NIGHTCITY_CONSTANT_UNIFORM_PAGES 1   // 1: pages of uniform buffers, 0: storage
 #define NIGHTCITY_CONSTANT_PAGE_COUNT 2
 #define NIGHTCITY_CONSTANT_PAGE_ENTRIES 3    // LightEntry a page, a power of two
+#define NIGHTCITY_CONSTANT_SUBDIVISIONS 4    // steps a segment
 // Specialization constant of accumulate.comp.
 #define NIGHTCITY_CONSTANT_MEDIA 0           // 0: surface frame
 
@@ -92,7 +93,6 @@ struct FrameTable {
     uint width;         // pixels
     uint height;
     uint bandRays;      // capacity
-    uint subdivisions;  // steps a segment
     uint sampleCount;
     uint centreSample;  // whose depth, normal and ids are kept
     CameraFrame camera;
