@@ -14,8 +14,12 @@ SETTINGS = layout.RENDER.AppendChild("Settings")
 _CHANNELS = (
     ("beauty", "color3f"),
     ("glow", "color3f"),
+    ("surface", "color3f"),
     ("transmittance", "float"),
     ("depth", "float"),
+    ("normal", "normal3f"),
+    ("mediaId", "float"),
+    ("materialId", "float"),
 )
 
 

@@ -176,7 +176,12 @@ def test_render_settings(stage: Usd.Stage) -> None:
     (product,) = settings.GetRelationship("products").GetTargets()
     channels = stage.GetPrimAtPath(product).GetRelationship("orderedVars").GetTargets()
     names = [stage.GetPrimAtPath(path).GetAttribute("sourceName").Get() for path in channels]
-    assert names == ["beauty", "glow", "transmittance", "depth"]
+    assert names == ["beauty", "glow", "surface", "transmittance"] + [
+        "depth",
+        "normal",
+        "mediaId",
+        "materialId",
+    ]
 
 
 def test_more_than_a_hundred_siblings_are_grouped(tmp_path: Path) -> None:
