@@ -5,16 +5,21 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import OpenImageIO
 import pytest
 from conftest import ROOT, Command
+from pxr import Gf, Usd, UsdGeom
+
+import nightcity.schemas
+
+nightcity.schemas.register()
 
 SIZE = "192x106"
 CAMERA = ("--camera", "overview75", "--size", SIZE)
-BUILDING = "/City/Buildings"
 
 
 def read_image(path: Path) -> tuple[dict[str, np.ndarray], OpenImageIO.ImageSpec]:
@@ -103,40 +108,21 @@ def test_same_scene_same_image_bytes(
     assert again.read_bytes() == picture.read_bytes()
 
 
-OVERRIDE = """#usda 1.0
-(
-    defaultPrim = "City"
-    subLayers = [@{stage}@]
-    upAxis = "Z"
-    metersPerUnit = 1
-)
-over "City"
-{{
-{opinions}
-}}
-"""
-
-
-def override(stage: Path, folder: Path, opinions: str) -> Path:
+def override(stage: Path, folder: Path, change: Callable[[Usd.Stage], None]) -> Path:
+    """An artist's layer over the stage, with opinions of its own."""
     path = folder / "artist.usda"
-    path.write_text(OVERRIDE.format(stage=stage, opinions=opinions))
+    layer = Usd.Stage.CreateNew(str(path))
+    layer.GetRootLayer().subLayerPaths.append(str(stage))
+    UsdGeom.SetStageUpAxis(layer, UsdGeom.Tokens.z)
+    UsdGeom.SetStageMetersPerUnit(layer, 1)
+    layer.SetDefaultPrim(layer.GetPrimAtPath("/City"))
+    change(layer)
+    layer.Save()
     return path
 
 
-def find_prims(stage: Path, api: str) -> list[str]:
-    from pxr import Usd
-
-    import nightcity.schemas
-
-    nightcity.schemas.register()
-    return [str(p.GetPath()) for p in Usd.Stage.Open(str(stage)).Traverse() if p.HasAPI(api)]
-
-
-def nested(path: str, body: str) -> str:
-    """Overs from /City down to the prim, around what it is to hold."""
-    for name in reversed(path.removeprefix("/City/").split("/")):
-        body = f'over "{name}"\n{{\n{body}\n}}'
-    return body
+def with_api(stage: Usd.Stage, api: str) -> list[Usd.Prim]:
+    return [prim for prim in stage.Traverse() if prim.HasAPI(api)]
 
 
 def render_override(nightcity: Command, artist: Path, *options: str) -> np.ndarray:
@@ -148,22 +134,22 @@ def render_override(nightcity: Command, artist: Path, *options: str) -> np.ndarr
 def test_override_windows_off(
     nightcity: Command, stage: Path, picture: Path, tmp_path: Path
 ) -> None:
-    opinions = "\n".join(
-        nested(path, "bool[] nightcity:lightOn = [0]")
-        for path in find_prims(stage, "NightcityWindowsAPI")
-    )
-    assert render_override(nightcity, override(stage, tmp_path, opinions)).max() == 0
+    def switch_off(layer: Usd.Stage) -> None:
+        for prim in with_api(layer, "NightcityWindowsAPI"):
+            prim.GetAttribute("nightcity:lightOn").Set([False])
+
+    assert render_override(nightcity, override(stage, tmp_path, switch_off)).max() == 0
     assert glow(picture).max() > 0
 
 
 def test_override_extinction(
     nightcity: Command, stage: Path, picture: Path, tmp_path: Path
 ) -> None:
-    opinions = "\n".join(
-        nested(path, "float nightcity:extinction = 0.0001")
-        for path in find_prims(stage, "NightcityMediaAPI")
-    )
-    thin = render_override(nightcity, override(stage, tmp_path, opinions))
+    def clear_the_air(layer: Usd.Stage) -> None:
+        for prim in with_api(layer, "NightcityMediaAPI"):
+            prim.GetAttribute("nightcity:extinction").Set(0.0001)
+
+    thin = render_override(nightcity, override(stage, tmp_path, clear_the_air))
     # A hundredth of the haze: nearly a hundredth of the glow.
     assert 0.01 < thin.mean() / glow(picture).mean() < 0.02
 
@@ -171,24 +157,21 @@ def test_override_extinction(
 def test_override_moves_a_building(
     nightcity: Command, stage: Path, picture: Path, tmp_path: Path
 ) -> None:
-    building = find_prims(stage, "NightcityBuildingAPI")[0]
-    moved = nested(building, "double3 xformOp:translate = (0, 0, 500)")
-    artist = override(stage, tmp_path, moved)
-    without = render_override(nightcity, artist)
+    def lift(layer: Usd.Stage) -> None:
+        building = with_api(layer, "NightcityBuildingAPI")[0]
+        building.GetAttribute("xformOp:translate").Set(Gf.Vec3d(0, 0, 500))
+
+    without = render_override(nightcity, override(stage, tmp_path, lift))
     assert without.mean() < 0.9 * glow(picture).mean()
 
 
 def test_override_adds_a_camera(nightcity: Command, stage: Path, tmp_path: Path) -> None:
-    camera = """def Camera "mine"
-    {
-        float focalLength = 20
-        float horizontalAperture = 36
-        float verticalAperture = 20
-        double3 xformOp:translate = (0, -60, 10)
-        float3 xformOp:rotateXYZ = (90, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-    }"""
-    artist = override(stage, tmp_path, camera)
+    def add(layer: Usd.Stage) -> None:
+        camera = UsdGeom.Camera.Define(layer, "/City/Cameras/mine")
+        camera.AddTranslateOp().Set(Gf.Vec3d(0, -60, 10))
+        camera.AddRotateXYZOp().Set(Gf.Vec3f(90, 0, 0))
+
+    artist = override(stage, tmp_path, add)
     assert render_override(nightcity, artist, "--camera", "mine", "--size", SIZE).max() > 0
 
 
