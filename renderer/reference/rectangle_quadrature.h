@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -49,60 +50,110 @@ Estimate productGauss(Function&& f, glm::dvec2 lo, glm::dvec2 hi) {
     return {area * fine, difference <= rounding ? 0 : area * difference};
 }
 
-// Integral of f(glm::dvec2) >= 0 over [-1, 1]^2, first cut at `centre` where that lies
-// inside. Where all nodes of the first cells are 0, a grid of 4 x 4 cells looks again.
-// The error is above the tolerance only where 20,000 cells were not enough.
-template <typename Function>
-Estimate integrateRectangle(Function&& f, glm::dvec2 centre, const Tolerance& tolerance) {
-    constexpr std::size_t kLargestCount = 20000;
-    std::vector<RectangleCell> cells;
-    const auto smaller = [](const RectangleCell& a, const RectangleCell& b) {
-        return a.estimate.error < b.estimate.error;
-    };
-    const auto add = [&](glm::dvec2 lo, glm::dvec2 hi) {
+// Cells of a rectangle, the one with the largest error on top.
+class RectangleCells {
+public:
+    template <typename Function>
+    void add(Function&& f, glm::dvec2 lo, glm::dvec2 hi) {
         if (lo.x < hi.x && lo.y < hi.y) {
-            cells.push_back({lo, hi, productGauss(f, lo, hi)});
-            std::push_heap(cells.begin(), cells.end(), smaller);
+            push({lo, hi, productGauss(f, lo, hi)});
         }
-    };
-    const auto cut = [&](glm::dvec2 lo, glm::dvec2 hi, glm::dvec2 at) {
-        add(lo, at);
-        add({at.x, lo.y}, {hi.x, at.y});
-        add({lo.x, at.y}, {at.x, hi.y});
-        add(at, hi);
-    };
-    const bool inside = std::abs(centre.x) < 1 && std::abs(centre.y) < 1;
-    if (inside) {
-        cut(glm::dvec2(-1), glm::dvec2(1), centre);
-    } else {
-        add(glm::dvec2(-1), glm::dvec2(1));
     }
-    const auto sum = [&] {
+
+    // Cuts a cell in four at `at`. What the cut changes is an error that the rules of
+    // one cell may both miss, at a kink: the children answer for it.
+    template <typename Function>
+    void cut(Function&& f, const RectangleCell& cell, glm::dvec2 at) {
+        const glm::dvec2 lo = cell.lo, hi = cell.hi;
+        std::array<RectangleCell, 4> children{{{lo, at, {}},
+                                               {{at.x, lo.y}, {hi.x, at.y}, {}},
+                                               {{lo.x, at.y}, {at.x, hi.y}, {}},
+                                               {at, hi, {}}}};
+        double sum = 0;
+        for (RectangleCell& child : children) {
+            child.estimate = productGauss(f, child.lo, child.hi);
+            sum += child.estimate.value;
+        }
+        const double change =
+            std::isfinite(cell.estimate.error) ? std::abs(sum - cell.estimate.value) : 0;
+        const double rounding = 50 * std::numeric_limits<double>::epsilon() * std::abs(sum);
+        for (RectangleCell& child : children) {
+            if (change > rounding) {
+                child.estimate.error = std::max(child.estimate.error, 0.25 * change);
+            }
+            push(child);
+        }
+    }
+
+    template <typename Function>
+    void cutWorst(Function&& f) {
+        std::pop_heap(cells_.begin(), cells_.end(), smaller);
+        const RectangleCell worst = cells_.back();
+        cells_.pop_back();
+        cut(f, worst, 0.5 * (worst.lo + worst.hi));
+    }
+
+    template <typename Function>
+    void cutAll(Function&& f) {
+        const std::vector<RectangleCell> whole = std::exchange(cells_, {});
+        for (const RectangleCell& cell : whole) {
+            cut(f, cell, 0.5 * (cell.lo + cell.hi));
+        }
+    }
+
+    // Afresh each time: no drift, no infinity minus infinity.
+    Estimate sum() const {
         Estimate total;
-        for (const RectangleCell& cell : cells) {
+        for (const RectangleCell& cell : cells_) {
             total += cell.estimate;
         }
         return total;
-    };
-    Estimate total = sum();
-    if (total.value == 0 && total.error == 0) {
-        cells.clear();
-        for (int i = 0; i < 16; ++i) {
-            const glm::dvec2 lo = glm::dvec2(i % 4, i / 4) * 0.5 - 1.0;
-            add(lo, lo + 0.5);
-        }
-        total = sum();
     }
+    std::size_t size() const { return cells_.size(); }
+
+private:
+    static bool smaller(const RectangleCell& a, const RectangleCell& b) {
+        return a.estimate.error < b.estimate.error;
+    }
+    void push(const RectangleCell& cell) {
+        cells_.push_back(cell);
+        std::push_heap(cells_.begin(), cells_.end(), smaller);
+    }
+
+    std::vector<RectangleCell> cells_;  // a heap
+};
+
+// Integral of f(glm::dvec2) >= 0 over [-1, 1]^2, first cut at `centre` where that lies
+// inside. `hasKinks()` is asked after that: where it says so every cell is cut once
+// before its error is believed, and where all is 0 twice. The error is above the
+// tolerance only where 20,000 cells were not enough.
+template <typename Function, typename HasKinks>
+Estimate integrateRectangle(Function&& f, glm::dvec2 centre, const Tolerance& tolerance,
+                            HasKinks&& hasKinks) {
+    constexpr std::size_t kLargestCount = 20000;
+    const glm::dvec2 lo(-1), hi(1);
+    RectangleCells cells;
+    if (std::abs(centre.x) < 1 && std::abs(centre.y) < 1) {
+        cells.add(f, lo, centre);
+        cells.add(f, {centre.x, lo.y}, {hi.x, centre.y});
+        cells.add(f, {lo.x, centre.y}, {centre.x, hi.y});
+        cells.add(f, centre, hi);
+    } else {
+        cells.add(f, lo, hi);
+    }
+    if (hasKinks()) {
+        cells.cutAll(f);
+        if (cells.sum().value == 0) {
+            cells.cutAll(f);
+        }
+    }
+    Estimate total = cells.sum();
     while (!(total.error <= tolerance.of(total.value)) && cells.size() < kLargestCount) {
-        // In rounds, so that summing afresh (no drift, no infinity minus infinity) is cheap.
         const std::size_t round = std::max<std::size_t>(1, cells.size() / 16);
         for (std::size_t i = 0; i < round; ++i) {
-            std::pop_heap(cells.begin(), cells.end(), smaller);
-            const RectangleCell worst = cells.back();
-            cells.pop_back();
-            cut(worst.lo, worst.hi, 0.5 * (worst.lo + worst.hi));
+            cells.cutWorst(f);
         }
-        total = sum();
+        total = cells.sum();
     }
     return total;
 }

@@ -36,6 +36,9 @@ public:
     // between the corners. Returns false where nothing is left.
     bool trim(const std::vector<glm::dvec3>& corners);
 
+    // Whether anything may hide any of the part from any of the points.
+    bool hasShadows() const { return !faces_.empty(); }
+
 private:
     glm::dvec3 begin() const { return ray_.at(part_.begin); }
     glm::dvec3 end() const { return ray_.at(part_.end); }

@@ -150,8 +150,10 @@ Estimate SingleScattering::fromPane(const Ray& ray, std::span<const HazeStretch>
         const PointSource source = window.pointSource(window.at(uv), lights_.model.emitter);
         return 0.25 * fromPoint(ray, stretches, source, sight ? &*sight : nullptr, inner).value;
     };
+    // Where edges of shadows meet ends of the ray or other edges.
+    const auto hasKinks = [&] { return sight && sight->hasShadows(); };
     const glm::dvec2 nearest = nearestOnPane(ray, {begin, end}, window);
-    Estimate sum = integrateRectangle(mean, nearest, tolerance);
+    Estimate sum = integrateRectangle(mean, nearest, tolerance, hasKinks);
     sum.error += inner.of(sum.value);
     return sum;
 }
