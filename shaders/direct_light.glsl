@@ -89,7 +89,8 @@ float transmittanceTo(vec3 place, vec3 point, float extinction) {
     if (isHidden(place, point)) {
         return 0.0;
     }
-    return exp(-mediaSpan(Ray(point, way / reach), reach).depth);
+    MediaSpan span = mediaSpan(Ray(point, way / reach), reach);
+    return exp(-span.depth);
 }
 
 DirectLight directLight(uint index, vec3 point, float extinction, inout RandomStream random) {

@@ -13,7 +13,8 @@ vec2 nextRandomPair(inout RandomStream random) {
 }
 
 float nextRandom(inout RandomStream random) {
-    return nextRandomPair(random).x;
+    vec2 pair = nextRandomPair(random);
+    return pair.x;
 }
 
 #endif
