@@ -32,9 +32,11 @@ NIGHTCITY_CHOICES(Lights, {"listed", Lights::listed}, {"all", Lights::all})
 NIGHTCITY_CHOICES(Visibility, {"none", Visibility::none}, {"full", Visibility::full})
 NIGHTCITY_CHOICES(Emitter, {"isotropic", Emitter::isotropic},
                   {"lambertian", Emitter::lambertian}, {"pane", Emitter::pane})
-NIGHTCITY_CHOICES(Scattering, {"single", Scattering::single})
+NIGHTCITY_CHOICES(Scattering, {"single", Scattering::single},
+                  {"multiple", Scattering::multiple})
 NIGHTCITY_CHOICES(Surfaces, {"dim", Surfaces::dim}, {"lit", Surfaces::lit})
-NIGHTCITY_CHOICES(Method, {"march", Method::march}, {"reference", Method::reference})
+NIGHTCITY_CHOICES(Method, {"march", Method::march}, {"path", Method::path},
+                  {"reference", Method::reference})
 NIGHTCITY_CHOICES(MarchOrder, {"steps", MarchOrder::steps}, {"lights", MarchOrder::lights})
 NIGHTCITY_CHOICES(LightStorage, {"uniform", LightStorage::uniform},
                   {"storage", LightStorage::storage})

@@ -11,6 +11,7 @@ void Frame::resize(std::uint32_t w, std::uint32_t h) {
     beauty.assign(count, glm::vec4(0));
     glow.assign(count, glm::vec3(0));
     surface.assign(count, glm::vec3(0));
+    glowError.assign(count, glm::vec3(0));
     transmittance.assign(count, 1.0f);
     depth.assign(count, kSkyDepth);
     normal.assign(count, glm::vec3(0));

@@ -24,6 +24,7 @@ struct Frame {
     std::vector<glm::vec4> beauty;
     std::vector<glm::vec3> glow;
     std::vector<glm::vec3> surface;     // surfaces as seen through the haze: radiance x transmittance
+    std::vector<glm::vec3> glowError;   // standard error of glow (Monte Carlo); 0 for other methods
     std::vector<float> transmittance;   // of all media before the surface (or of all, to the sky)
     // Of the sample nearest the pixel's centre, never averaged:
     std::vector<float> depth;           // m along the camera's axis, kSkyDepth where there is nothing

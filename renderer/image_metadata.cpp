@@ -79,6 +79,16 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
          {"pixelSamples", std::to_string(settings.pixelSamples)},
          {"filter", choiceName(settings.filter)},
          {"seed", std::to_string(settings.seed)}});
+    if (settings.method == Method::path) {
+        const Orders& orders = settings.orders;
+        const bool single = settings.model.scattering == Scattering::single;
+        entries.emplace_back("samples", std::to_string(settings.samples));
+        entries.emplace_back("orders", std::to_string(orders.first) + "-" +
+                                           (orders.last ? std::to_string(*orders.last)
+                                            : single    ? "1"
+                                                        : ""));
+        entries.emplace_back("g", number(settings.anisotropy));
+    }
     if (settings.method == Method::march) {
         entries.emplace_back("marchOrder", choiceName(settings.marchOrder));
         entries.emplace_back("lightStorage", choiceName(settings.lightStorage));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "option_checks.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <unistd.h>
@@ -76,8 +77,39 @@ void checkMarchedModel(const Model& model) {
     same(model.surfaces, paper.surfaces, "--surfaces", "dim");
 }
 
+// What only the path tracer knows, and what it does not.
+void checkPaths(const Options& options, const Given& given) {
+    const RenderSettings& settings = options.settings;
+    if (settings.method != Method::path) {
+        for (const char* name : {"--samples", "--orders", "--g"}) {
+            require(!given(name), std::string(name) + " is for --method path");
+        }
+        require(settings.model.scattering == Scattering::single,
+                "--scattering multiple is for --method path; the others know single");
+        const bool error = options.aovs && std::find(options.aovs->begin(), options.aovs->end(),
+                                                     kErrorAov) != options.aovs->end();
+        require(!error, "--aovs glowError is for --method path; the others have no noise");
+        return;
+    }
+    for (const char* name :
+         {"--subdivisions", "--tolerance", "--march-order", "--light-storage", "--light-cap"}) {
+        require(!given(name), std::string(name) + " is not for --method path; it takes --samples");
+    }
+    const double paths = double(settings.samples) * settings.pixelSamples;
+    require(paths >= 2, "--samples 1: an error estimate needs at least 2 paths a pixel");
+    require(paths < 4294967296.0, "--samples times --pixel-samples must be below 2^32");
+    require(std::abs(settings.anisotropy) <= 0.99f, "--g must lie from -0.99 to 0.99");
+    require(settings.model.scattering == Scattering::multiple || !given("--orders") ||
+                settings.orders == Orders{1, 1},
+            "--orders: single scattering is order 1 only; add --scattering multiple");
+}
+
 void checkMethod(const Options& options, const Given& given) {
     const RenderSettings& settings = options.settings;
+    checkPaths(options, given);
+    if (settings.method == Method::path) {
+        return;
+    }
     const bool exact = settings.method == Method::reference && !given("--subdivisions");
     require(!given("--tolerance") || exact,
             "--tolerance is for --method reference without --subdivisions; the march takes steps");

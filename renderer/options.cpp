@@ -45,6 +45,18 @@ glm::uvec2 parseSize(const std::string& text) {
     return {*width, *height};
 }
 
+Orders parseOrders(const std::string& text) {
+    const std::size_t dash = text.find('-');
+    const auto first = wholeNumber(std::string_view(text).substr(0, dash));
+    const bool open = dash != std::string::npos && dash + 1 == text.size();
+    const auto last = dash == std::string::npos ? first
+                      : open ? std::nullopt : wholeNumber(std::string_view(text).substr(dash + 1));
+    if (!first || *first == 0 || (!open && (!last || *last < *first))) {
+        throw UsageError("--orders " + text + ": give orders like 1, 2-5 or 2-, from 1 up");
+    }
+    return {*first, last};
+}
+
 template <typename Value>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& target,
                        const std::string& help) {
@@ -100,7 +112,7 @@ void addWhat(CLI::App& app, Options& options) {
         ->type_name("N|FILE");
     app.add_option("--aovs", options.aovs,
                    "channels, separated by commas: beauty, glow, surface, transmittance, depth, "
-                   "normal, mediaId, materialId (default: the stage's, else all)")
+                   "normal, mediaId, materialId, of --method path glowError (default: the stage's, else all)")
         ->delimiter(',')
         ->type_name("NAMES");
 }
@@ -120,13 +132,21 @@ void addModel(CLI::App& app, Options& options) {
                             .emitter = Emitter::pane,
                             .scattering = Scattering::single,
                             .surfaces = Surfaces::dim};
+               } else if (text == "full") {
+                   model = {.lights = Lights::all,
+                            .visibility = Visibility::full,
+                            .emitter = Emitter::pane,
+                            .scattering = Scattering::multiple,
+                            .surfaces = Surfaces::lit};
                } else {
-                   throw UsageError("--model " + text + " is not known; there is paper and single");
+                   throw UsageError("--model " + text +
+                                    " is not known; there is paper, single and full");
                }
            },
            "which physics: paper is --lights listed --visibility none --emitter isotropic "
-           "--scattering single --surfaces dim; single is all, full, pane, single, dim")
-        ->type_name("paper|single")
+           "--scattering single --surfaces dim; single is all, full, pane, single, dim; full is all, "
+           "full, pane, multiple, lit")
+        ->type_name("paper|single|full")
         ->default_str("paper");
     addChoice(app, "--lights", model.lights, "which windows light a point");
     addChoice(app, "--visibility", model.visibility, "what hides them");
@@ -149,8 +169,8 @@ void addModel(CLI::App& app, Options& options) {
 void addMethod(CLI::App& app, Options& options) {
     RenderSettings& settings = options.settings;
     addChoice(app, "--method", settings.method,
-              "march on the device; or in double precision on the CPU the exact integral, with "
-              "--subdivisions the same march");
+              "march or Monte Carlo paths on the device; or in double precision on the CPU the exact "
+              "integral, with --subdivisions the same march");
     addCount(app, "--subdivisions", settings.subdivisions, "steps of the march in each media box");
     app.add_option("--tolerance", settings.tolerance,
                    "of what the reference shall judge: it is exact to a tenth of it, relative "
@@ -160,6 +180,14 @@ void addMethod(CLI::App& app, Options& options) {
     app.add_option("--light-cap", settings.lightCap, "at most so many lit windows a media box")
         ->check(CLI::Range(1u, kMaxCount).description(""))
         ->type_name("N");
+    addCount(app, "--samples", settings.samples, "paths a pixel sample, of --method path");
+    app.add_option_function<std::string>(
+           "--orders", [&](const std::string& text) { settings.orders = parseOrders(text); },
+           "only paths with so many events between window and eye: 1, 2-5 or 2-")
+        ->type_name("A-B");
+    app.add_option("--g", settings.anisotropy,
+                   "of the phase function of Henyey and Greenstein, -0.99 to 0.99; 0: isotropic")
+        ->type_name("G");
     addChoice(app, "--light-storage", settings.lightStorage, "buffers of the light lists");
     addCount(app, "--pixel-samples", settings.pixelSamples, "rays a pixel");
     addChoice(app, "--filter", settings.filter, "where in the pixel they lie");

@@ -92,14 +92,12 @@ private:
         if (flatScene_ == nullptr) {
             throw std::logic_error("render before a sync that succeeded");
         }
-        const Model& model = settings.model;
-        const bool paper = model.lights == Lights::listed &&
-                           model.visibility == Visibility::none &&
-                           model.emitter == Emitter::isotropic &&
-                           model.scattering == Scattering::single && model.surfaces == Surfaces::dim;
-        if (settings.method != Method::march || !paper) {
-            throw UsageError("the device renders --method march --model paper: for any other "
-                             "model take --method reference");
+        if (settings.method == Method::reference) {
+            throw std::logic_error("the reference is no work of the device");
+        }
+        if (settings.method == Method::march && settings.model != Model{}) {
+            throw UsageError("--method march knows --model paper only: for any other model take "
+                             "--method path or reference");
         }
         if (product.width == 0 || product.height == 0) {
             throw UsageError("--size: width and height must be at least 1 pixel");
@@ -110,6 +108,9 @@ private:
         }
         if (settings.subdivisions == 0) {
             throw UsageError("--subdivisions must be at least 1");
+        }
+        if (settings.samples == 0) {
+            throw UsageError("--samples must be at least 1");
         }
         for (const glm::uvec2& pixel : product.pixels) {
             if (pixel.x >= product.width || pixel.y >= product.height) {

@@ -3,6 +3,7 @@
 #include "session.h"
 
 #include <algorithm>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -111,6 +112,12 @@ private:
         image_.pixels = product_.pixels;
         image_.exposure = options_.exposure;
         image_.aovs = chooseAovs();
+        if (options_.settings.method == Method::path && !options_.aovs) {
+            image_.aovs = image_.aovs.empty() ? commonAovs() : image_.aovs;
+            if (std::find(image_.aovs.begin(), image_.aovs.end(), kErrorAov) == image_.aovs.end()) {
+                image_.aovs.emplace_back(kErrorAov);
+            }
+        }
     }
 
     std::vector<std::string> chooseAovs() {

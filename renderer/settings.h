@@ -18,12 +18,13 @@ namespace nightcity {
 enum class Lights { listed, all };
 enum class Visibility { none, full };
 enum class Emitter { isotropic, lambertian, pane };
-enum class Scattering { single };
+enum class Scattering { single, multiple };
 enum class Surfaces { dim, lit };
 
 // How its integral is computed.
 enum class Method {
     march,      // N equal steps a segment, midpoints, on the GPU
+    path,       // unbiased Monte Carlo, on the GPU
     reference,  // in double precision, on the CPU: the same march, or the exact integral
 };
 enum class MarchOrder { steps, lights };        // which loop is outside
@@ -36,6 +37,16 @@ struct Model {
     Emitter emitter = Emitter::isotropic;
     Scattering scattering = Scattering::single;
     Surfaces surfaces = Surfaces::dim;
+
+    bool operator==(const Model&) const = default;
+};
+
+// Of events on the way from a window to the eye: scattering in haze, reflection by surfaces.
+struct Orders {
+    std::uint32_t first = 1;
+    std::optional<std::uint32_t> last;  // none: all that follow
+
+    bool operator==(const Orders&) const = default;
 };
 
 struct RenderSettings {
@@ -47,6 +58,10 @@ struct RenderSettings {
     std::optional<std::uint32_t> lightCap;   // at most this many lit windows a box, the nearest ids first
     // Method::reference: exact to a tenth of this (relative); unset: the march.
     std::optional<double> tolerance;
+    // Method::path:
+    std::uint32_t samples = 64;              // paths a pixel sample, at least 1
+    Orders orders;                           // within those of model.scattering
+    float anisotropy = 0;                    // g of Henyey and Greenstein, within (-1, 1)
     bool media = true;                       // off: the surface frame
     std::uint32_t pixelSamples = 1;
     Filter filter = Filter::box;             // with 1 sample: the pixel centre

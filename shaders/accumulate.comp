@@ -18,6 +18,15 @@ void keepCentre(uint index, SurfaceRecord record, int firstMediaId) {
     FloatArray(frameTable.materialId).at[index] = float(materialOf(record.primitive));
 }
 
+// Of the mean of all paths, taken as independent draws of equal weight: where a pixel has
+// several samples, their spread in the pixel counts as noise.
+void keepError(uint index, vec3 mean) {
+    float paths = float(frameTable.sampleCount) * float(frameTable.paths);
+    vec3 meanSquare = Vec3Array(frameTable.glowSquares).at[index] / paths;
+    vec3 variance = max(meanSquare - mean * mean, vec3(0.0));
+    Vec3Array(frameTable.glowError).at[index] = sqrt(variance / max(paths - 1.0, 1.0));
+}
+
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= push.pixelCount) {
@@ -49,6 +58,9 @@ void main() {
     Vec3Array(frameTable.glow).at[index] = sumGlow;
     Vec4Array(frameTable.beauty).at[index] = vec4(sumSurface.rgb + sumGlow, sumSurface.a);
     FloatArray(frameTable.transmittance).at[index] = sumTransmittance;
+    if (frameTable.paths > 0u && push.sampleIndex + 1u == frameTable.sampleCount) {
+        keepError(index, sumGlow);
+    }
     if (push.sampleIndex == frameTable.centreSample) {
         keepCentre(index, record, firstMediaId);
     }

@@ -32,6 +32,8 @@ NIGHTCITY_ARRAY(FacadeArray, Facade)
 NIGHTCITY_ARRAY(SurfaceRecordArray, SurfaceRecord)
 NIGHTCITY_ARRAY(RayProgressArray, RayProgress)
 NIGHTCITY_ARRAY(SegmentArray, Segment)
+NIGHTCITY_ARRAY(LightNodeArray, LightNode)
+NIGHTCITY_ARRAY(PathSumsArray, PathSums)
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SceneReference {
     SceneTable table;

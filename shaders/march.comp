@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "counters.glsl"
 #include "light_entries.glsl"
 #include "transport/in_scatter.glsl"
 
@@ -86,17 +87,6 @@ vec3 marchStepsOutside(MarchSegment segment) {
         }
     }
     return sum;
-}
-
-void countLights(uint lightSegments) {
-    if (lightSegments == 0u) {
-        return;
-    }
-    CountersReference counters = CountersReference(frameTable.counters);
-    uint before = atomicAdd(counters.counters.lightSegmentsLow, lightSegments);
-    if (before + lightSegments < before) {
-        atomicAdd(counters.counters.lightSegmentsHigh, 1u);
-    }
 }
 
 void main() {

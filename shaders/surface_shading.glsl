@@ -7,6 +7,7 @@
 #define NIGHTCITY_SHADERS_SURFACE_SHADING_GLSL
 
 #include "intersect.glsl"
+#include "primitives.glsl"
 
 const float kDim = 0.1;  // W m^-2 sr^-1 at reflectance 1
 
@@ -130,6 +131,23 @@ SurfaceRecord shadeGround(Ray ray, float depth) {
     Material material = MaterialArray(sceneTable.materials).at[sceneTable.groundMaterial];
     return SurfaceRecord(kDim * material.reflectance, depth, towardsCamera(up, ray.direction),
                          kGroundPrimitive);
+}
+
+// The nearest opaque surface on a ray, sky where there is none.
+SurfaceRecord nearestSurface(Ray ray) {
+    float ground = groundDepth(ray);
+    TriangleHit hit = nearestTriangle(ray, ground);
+    SurfaceRecord record = SurfaceRecord(vec3(0.0), kFar, vec3(0.0), kNone);
+    if (hit.triangle != kNone) {
+        record = shadeTriangle(ray, hit);
+    } else if (ground < kFar) {
+        record = shadeGround(ray, ground);
+    }
+    PaneHit loose = nearestLoosePane(ray, hit.depth);
+    if (loose.window != kNone && (!isPane(record.primitive) || loose.depth < record.depth)) {
+        record = shadePane(ray, loose);
+    }
+    return record;
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "errors.h"
@@ -13,8 +14,9 @@ namespace nightcity {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kAovs{
-    "beauty", "glow", "surface", "transmittance", "depth", "normal", "mediaId", "materialId"};
+constexpr std::array<std::string_view, 9> kAovs{
+    "beauty", "glow", "surface", "transmittance", "depth", "normal", "mediaId", "materialId",
+    kErrorAov};
 
 template <auto Member, int Component>
 float component(const Frame& frame, std::size_t pixel) {
@@ -44,6 +46,9 @@ constexpr std::array kChannels{
     Channel{"normal", "N.Z", component<&Frame::normal, 2>},
     Channel{"mediaId", "mediaId.Y", scalar<&Frame::mediaId>},
     Channel{"materialId", "materialId.Y", scalar<&Frame::materialId>},
+    Channel{kErrorAov, "glowError.R", component<&Frame::glowError, 0>},
+    Channel{kErrorAov, "glowError.G", component<&Frame::glowError, 1>},
+    Channel{kErrorAov, "glowError.B", component<&Frame::glowError, 2>},
 };
 
 void checkNames(std::span<const std::string> aovs) {
@@ -61,11 +66,16 @@ void checkNames(std::span<const std::string> aovs) {
 
 }  // namespace
 
+std::vector<std::string> commonAovs() {
+    return {kAovs.begin(), std::prev(kAovs.end())};
+}
+
 std::vector<Channel> selectChannels(std::span<const std::string> aovs) {
     checkNames(aovs);
     std::vector<Channel> selected;
     for (const Channel& channel : kChannels) {
-        if (aovs.empty() || std::find(aovs.begin(), aovs.end(), channel.aov) != aovs.end()) {
+        const bool named = std::find(aovs.begin(), aovs.end(), channel.aov) != aovs.end();
+        if (named || (aovs.empty() && channel.aov != kErrorAov)) {
             selected.push_back(channel);
         }
     }

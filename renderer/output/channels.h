@@ -19,7 +19,13 @@ struct Channel {
     float (*value)(const Frame& frame, std::size_t pixel);
 };
 
-// Of all AOVs, or of those named, in the order of the files. An empty list is all.
+// Standard errors of the glow, which Monte Carlo methods have.
+inline constexpr std::string_view kErrorAov = "glowError";
+
+// The AOVs that every method has.
+std::vector<std::string> commonAovs();
+
+// Of the AOVs named, in the order of the files. An empty list is all that every method has.
 // Throws UsageError for an unknown name, listing the known ones.
 std::vector<Channel> selectChannels(std::span<const std::string> aovs);
 

@@ -18,7 +18,7 @@ void copyImage(std::vector<T>& target, std::uint64_t first, std::uint32_t count,
 
 }  // namespace
 
-BandBuffers::ImageOffsets BandBuffers::imageOffsets(std::uint64_t rays) {
+BandBuffers::ImageOffsets BandBuffers::imageOffsets(std::uint64_t rays, Method method) {
     ImageOffsets at{};
     at.glow = at.beauty + rays * sizeof(vec4);
     at.surface = at.glow + rays * sizeof(vec3);
@@ -27,18 +27,26 @@ BandBuffers::ImageOffsets BandBuffers::imageOffsets(std::uint64_t rays) {
     at.normal = at.depth + rays * sizeof(float);
     at.mediaId = at.normal + rays * sizeof(vec3);
     at.materialId = at.mediaId + rays * sizeof(float);
-    at.end = at.materialId + rays * sizeof(float);
+    at.glowError = at.materialId + rays * sizeof(float);
+    at.end = at.glowError + (method == Method::path ? rays * sizeof(vec3) : 0);
     return at;
 }
 
-BandBuffers::BandBuffers(gpu::Device& device, std::uint32_t rays) : device_(device), rays_(rays) {
+BandBuffers::BandBuffers(gpu::Device& device, std::uint32_t rays, Method method)
+    : device_(device), rays_(rays), method_(method) {
     using gpu::MemoryKind;
     const std::uint64_t count = rays;
     surfaces_ = {device, "surface records", count * sizeof(SurfaceRecord), MemoryKind::device};
     progress_ = {device, "ray progress", count * sizeof(RayProgress), MemoryKind::device};
-    segments_ = {device, "segments", count * kSegmentSlots * sizeof(Segment), MemoryKind::device};
+    if (method == Method::path) {
+        pathSums_ = {device, "path sums", count * sizeof(PathSums), MemoryKind::device};
+        glowSquares_ = {device, "squares of glow", count * sizeof(vec3), MemoryKind::device};
+    } else {
+        segments_ = {device, "segments", count * kSegmentSlots * sizeof(Segment),
+                     MemoryKind::device};
+    }
     table_ = {device, "frame table", sizeof(FrameTable), MemoryKind::device};
-    images_ = {device, "images", imageOffsets(count).end};
+    images_ = {device, "images", imageOffsets(count, method).end};
     counters_ = {device, "pass counters", sizeof(PassCounters)};
 }
 
@@ -58,10 +66,15 @@ void BandBuffers::prepare(gpu::Commands& commands, FrameTable table,
     table.samples = addressWords(samples_.address());
     table.surfaces = addressWords(surfaces_.address());
     table.progress = addressWords(progress_.address());
-    table.segments = addressWords(segments_.address());
+    if (method_ == Method::path) {
+        table.pathSums = addressWords(pathSums_.address());
+        table.glowSquares = addressWords(glowSquares_.address());
+    } else {
+        table.segments = addressWords(segments_.address());
+    }
     table.counters = addressWords(counters_.buffer().address());
 
-    const ImageOffsets at = imageOffsets(rays_);
+    const ImageOffsets at = imageOffsets(rays_, method_);
     const VkDeviceAddress images = images_.buffer().address();
     table.beauty = addressWords(images + at.beauty);
     table.glow = addressWords(images + at.glow);
@@ -71,12 +84,13 @@ void BandBuffers::prepare(gpu::Commands& commands, FrameTable table,
     table.normal = addressWords(images + at.normal);
     table.mediaId = addressWords(images + at.mediaId);
     table.materialId = addressWords(images + at.materialId);
+    table.glowError = addressWords(images + at.glowError);
     table.bandRays = rays_;
     commands.upload(table_, &table, sizeof(FrameTable));
 }
 
 void BandBuffers::copyTo(Frame& frame, std::uint64_t first, std::uint32_t count) const {
-    const ImageOffsets at = imageOffsets(rays_);
+    const ImageOffsets at = imageOffsets(rays_, method_);
     const void* images = images_.data();
     copyImage(frame.beauty, first, count, images, at.beauty);
     copyImage(frame.glow, first, count, images, at.glow);
@@ -86,6 +100,9 @@ void BandBuffers::copyTo(Frame& frame, std::uint64_t first, std::uint32_t count)
     copyImage(frame.normal, first, count, images, at.normal);
     copyImage(frame.mediaId, first, count, images, at.mediaId);
     copyImage(frame.materialId, first, count, images, at.materialId);
+    if (method_ == Method::path) {
+        copyImage(frame.glowError, first, count, images, at.glowError);
+    }
 }
 
 }  // namespace nightcity

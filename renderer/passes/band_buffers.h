@@ -13,15 +13,17 @@
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "gpu/readable_buffer.h"
+#include "settings.h"
 
 namespace nightcity {
 
 class BandBuffers {
 public:
     // `rays`: pixels of a band, a multiple of kGroupSize.
-    BandBuffers(gpu::Device& device, std::uint32_t rays);
+    BandBuffers(gpu::Device& device, std::uint32_t rays, Method method);
 
     std::uint32_t rays() const { return rays_; }
+    Method method() const { return method_; }
     VkDeviceAddress tableAddress() const { return table_.address(); }
     const gpu::ReadableBuffer& images() const { return images_; }
     const gpu::ReadableBuffer& counters() const { return counters_; }
@@ -36,15 +38,19 @@ public:
 private:
     // Byte offset of each image in images_.
     struct ImageOffsets {
-        std::uint64_t beauty, glow, surface, transmittance, depth, normal, mediaId, materialId, end;
+        std::uint64_t beauty, glow, surface, transmittance, depth, normal, mediaId, materialId,
+            glowError, end;
     };
-    static ImageOffsets imageOffsets(std::uint64_t rays);
+    static ImageOffsets imageOffsets(std::uint64_t rays, Method method);
 
     gpu::Device& device_;
     std::uint32_t rays_;
+    Method method_;
     gpu::Buffer surfaces_;
     gpu::Buffer progress_;
     gpu::Buffer segments_;
+    gpu::Buffer pathSums_;
+    gpu::Buffer glowSquares_;
     gpu::Buffer pixels_;
     gpu::Buffer samples_;
     gpu::Buffer table_;

@@ -26,6 +26,33 @@ void setPosition(FrameTable& table, const CameraFrame& camera, glm::vec3 offset)
     table.positionLow = glm::vec3(exact - glm::dvec3(table.camera.position));
 }
 
+// The settings that pipelines of the method are specialised to; the others as they are by
+// default, so that a change of them makes no pipeline anew.
+PipelineChoice chooseFor(const GpuScene& scene, const RenderSettings& settings) {
+    PipelineChoice choice;
+    choice.method = settings.method;
+    choice.media = settings.media;
+    if (settings.method == Method::path) {
+        choice.model = settings.model;
+        choice.model.scattering = Scattering::single;  // the orders are in the frame table
+    } else {
+        choice.order = settings.marchOrder;
+        choice.subdivisions = settings.subdivisions;
+        choice.lights = scene.lights().pages();
+    }
+    return choice;
+}
+
+void setPaths(FrameTable& table, const RenderSettings& settings) {
+    const bool single = settings.model.scattering == Scattering::single;
+    table.paths = settings.samples;
+    table.firstOrder = settings.orders.first;
+    table.lastOrder = settings.orders.last.value_or(single ? 1 : kNoLastOrder);
+    table.anisotropy = settings.anisotropy;
+    table.seed = {static_cast<std::uint32_t>(settings.seed),
+                  static_cast<std::uint32_t>(settings.seed >> 32)};
+}
+
 }  // namespace
 
 struct FrameRenderer::Work {
@@ -58,13 +85,20 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
             static_cast<std::uint32_t>(std::min<std::uint64_t>(band_->rays(), work.pixels - first));
         for (std::uint32_t sample = 0; sample < work.samples.size(); ++sample) {
             push.sampleIndex = sample;
-            traceSample(work, push);
-            accumulateSample(work, push, sample + 1 == work.samples.size());
-            if (progress) {
-                const double within = (sample + 1.0) / static_cast<double>(work.samples.size());
-                progress((static_cast<double>(first) + within * push.pixelCount) /
-                         static_cast<double>(work.pixels));
+            const auto report = [&](double share) {  // of this sample
+                if (progress) {
+                    const double within = (sample + share) / static_cast<double>(work.samples.size());
+                    progress((static_cast<double>(first) + within * push.pixelCount) /
+                             static_cast<double>(work.pixels));
+                }
+            };
+            if (settings.method == Method::path) {
+                tracePaths(work, push, report);
+            } else {
+                marchSample(work, push);
             }
+            accumulateSample(work, push, sample + 1 == work.samples.size());
+            report(1);
         }
         band_->copyTo(frame, first, push.pixelCount);
     }
@@ -72,8 +106,7 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
 }
 
 void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderSettings& settings) {
-    const PipelineChoice choice{settings.marchOrder, scene.lights().pages(),
-                                settings.subdivisions, settings.media};
+    const PipelineChoice choice = chooseFor(scene, settings);
     if (!pipelines_ || pipelines_->choice != choice) {
         pipelines_ = std::make_unique<PassPipelines>(device_, choice);
         bound_ = false;
@@ -88,9 +121,10 @@ void FrameRenderer::prepareBand(const Work& work, const CameraFrame& camera,
     const std::uint32_t rays =
         groupsFor(static_cast<std::uint32_t>(std::min<std::uint64_t>(work.pixels, kBandPixels))) *
         kGroupSize;
-    if (!band_ || band_->rays() != rays) {
+    const Method method = work.settings.method;
+    if (!band_ || band_->rays() != rays || band_->method() != method) {
         band_.reset();
-        band_ = std::make_unique<BandBuffers>(device_, rays);
+        band_ = std::make_unique<BandBuffers>(device_, rays, method);
     }
     FrameTable table{};
     setPosition(table, camera, product.cameraOffset);
@@ -98,6 +132,9 @@ void FrameRenderer::prepareBand(const Work& work, const CameraFrame& camera,
     table.height = product.height;
     table.sampleCount = static_cast<std::uint32_t>(work.samples.size());
     table.centreSample = static_cast<std::uint32_t>(centreSample(work.samples));
+    if (method == Method::path) {
+        setPaths(table, work.settings);
+    }
     band_->prepare(commands_, table, product.pixels, work.samples);
     if (!bound_) {
         warmUp(work.scene);
@@ -112,15 +149,34 @@ void FrameRenderer::warmUp(const GpuScene& scene) {
     push.scene = addressWords(scene.tableAddress());
     push.frame = addressWords(band_->tableAddress());
     commands_.run("warm-up", [&](VkCommandBuffer commands) {
-        for (const gpu::ComputePipeline* pipeline :
-             {&pipelines_->surface, &pipelines_->traverse, &pipelines_->march,
-              &pipelines_->accumulate}) {
+        for (const gpu::ComputePipeline* pipeline : pipelines_->all()) {
             pipeline->dispatch(commands, &push, 1);
         }
     });
 }
 
-void FrameRenderer::traceSample(Work& work, PushConstants push) {
+void FrameRenderer::tracePaths(Work& work, PushConstants push,
+                               const std::function<void(double)>& progress) {
+    const std::uint32_t rounds = (work.settings.samples - 1) / kPathsPerDispatch + 1;
+    for (push.round = 0; push.round < rounds; ++push.round) {
+        const double milliseconds = commands_.run("trace", [&](VkCommandBuffer commands) {
+            timestamps_.begin(commands);
+            vkCmdFillBuffer(commands, band_->counters().buffer().get(), 0, sizeof(PassCounters), 0);
+            gpu::computeBarrier(commands);
+            if (push.round == 0) {
+                dispatch(commands, "surface", pipelines_->surface, push);
+            }
+            dispatch(commands, "path", pipelines_->path, push);
+            band_->counters().recordReadback(commands);
+        });
+        collectTimes(work.cost, milliseconds);
+        work.cost.lightEvaluations +=
+            counters().lightSegmentsLow | std::uint64_t{counters().lightSegmentsHigh} << 32;
+        progress((push.round + 1.0) / rounds);
+    }
+}
+
+void FrameRenderer::marchSample(Work& work, PushConstants push) {
     const VkBuffer counterBuffer = band_->counters().buffer().get();
     const bool media = work.settings.media;
     for (push.round = 0;; ++push.round) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders a frame band by band: surface, traverse, march, accumulate.
+// Renders a frame band by band: surface; traverse and march, or path; accumulate.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,8 @@ private:
     void preparePipelines(const GpuScene& scene, const RenderSettings& settings);
     void prepareBand(const Work& work, const CameraFrame& camera, const RenderProduct& product);
     void warmUp(const GpuScene& scene);
-    void traceSample(Work& work, PushConstants push);
+    void tracePaths(Work& work, PushConstants push, const std::function<void(double)>& progress);
+    void marchSample(Work& work, PushConstants push);
     void accumulateSample(Work& work, const PushConstants& push, bool last);
     void dispatch(VkCommandBuffer commands, const char* name, const gpu::ComputePipeline& pipeline,
                   const PushConstants& push);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "passes/light_tree.h"
 #include "scene/facades.h"
 
 namespace nightcity {
@@ -89,6 +90,7 @@ void GpuScene::uploadGeometry(const FlatScene& scene) {
     contents_.cellWindow = uploadArray<uint>("facade cell windows", facades.cellWindow);
     contents_.triangleFacade = uploadArray<uint>("facades of triangles", facades.triangleFacade);
     contents_.looseWindows = uploadArray<uint>("loose windows", facades.looseWindows);
+    contents_.lightList = uploadArray("light list", scene.lightList);
     contents_.groundMaterial = scene.ground ? scene.ground->material : kNone;
     contents_.groundHeight = scene.ground ? scene.ground->height : 0;
 }
@@ -167,14 +169,37 @@ void GpuScene::syncWindowState(const FlatScene& scene, int frame,
                                const RenderSettings& settings) {
     const std::vector<std::uint8_t> on = scene.windowsOn(frame);
     const std::vector<std::uint32_t> bits = stateBits(on);
-    if (!windowOn_ || windowOn_.bytes() < bits.size() * 4) {
-        windowOn_ = gpu::Buffer(device_, "window state", bits.size() * 4, gpu::MemoryKind::device);
+    uploadState(windowOn_, "window state", bits.data(), bits.size() * 4);
+    if (settings.method == Method::path) {
+        uploadLightTree(scene, on, settings.model.emitter);
     }
-    commands_.upload(windowOn_, bits.data(), bits.size() * 4);
     lights_.upload(packLights(scene, on, settings.lightCap), settings.lightStorage);
     contents_.windowOn = addressWords(windowOn_.address());
     contents_.marchMedia = addressWords(lights_.mediaAddress());
     writeTable();
+}
+
+void GpuScene::uploadState(gpu::Buffer& buffer, const char* name, const void* data,
+                           std::uint64_t bytes) {
+    if (!buffer || buffer.bytes() < bytes) {
+        buffer = {};
+        buffer = gpu::Buffer(device_, name, bytes, gpu::MemoryKind::device);
+    }
+    commands_.upload(buffer, data, bytes);
+}
+
+void GpuScene::uploadLightTree(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
+                               Emitter emitter) {
+    const LightTree tree = buildLightTree(scene, windowOn, emitter);
+    contents_.lightNodes = uvec2(0);
+    if (tree.nodes.empty()) {
+        return;
+    }
+    uploadState(lightNodes_, "light tree", tree.nodes.data(),
+                tree.nodes.size() * sizeof(LightNode));
+    uploadState(lightTrails_, "light trails", tree.trails.data(), tree.trails.size() * 4);
+    contents_.lightNodes = addressWords(lightNodes_.address());
+    contents_.lightTrails = addressWords(lightTrails_.address());
 }
 
 void GpuScene::writeTable() {

@@ -41,6 +41,9 @@ private:
     void buildMedia(const FlatScene& scene);
     void buildLoosePanes(const FlatScene& scene);
     void buildTopLevel();
+    void uploadState(gpu::Buffer& buffer, const char* name, const void* data, std::uint64_t bytes);
+    void uploadLightTree(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
+                         Emitter emitter);
     void writeTable();
 
     gpu::Device& device_;
@@ -52,6 +55,8 @@ private:
     gpu::AccelerationStructure loosePanes_;
     gpu::AccelerationStructure topLevel_;
     gpu::Buffer windowOn_;
+    gpu::Buffer lightNodes_;
+    gpu::Buffer lightTrails_;
     LightBuffers lights_;
     gpu::Buffer table_;
     SceneTable contents_{};

@@ -5,6 +5,7 @@
 #include "accumulate_spirv.h"
 #include "dispatch.h"
 #include "march_spirv.h"
+#include "path_spirv.h"
 #include "surface_spirv.h"
 #include "traverse_spirv.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(MarchMedium) == 20);
-static_assert(sizeof(SceneTable) == 14 * 8 + 16);
-static_assert(sizeof(FrameTable) == 14 * 8 + 20 + sizeof(CameraFrame) + 12);
+static_assert(sizeof(SceneTable) == 17 * 8 + 16);
+static_assert(sizeof(FrameTable) == 18 * 8 + 20 + sizeof(CameraFrame) + 12 + 16);
 static_assert(sizeof(PushConstants) == 32);  // devices give at least 128
 static_assert(sizeof(SurfaceRecord) == 32);
 static_assert(sizeof(RayProgress) == 32);
@@ -48,11 +49,37 @@ std::vector<std::uint32_t> marchConstants(const PipelineChoice& choice) {
     return constants;
 }
 
+std::uint32_t emitterConstant(Emitter emitter) {
+    return emitter == Emitter::isotropic    ? kEmitterIsotropic
+           : emitter == Emitter::lambertian ? kEmitterLambertian
+                                            : kEmitterPane;
+}
+
+std::vector<std::uint32_t> pathConstants(const PipelineChoice& choice) {
+    std::vector<std::uint32_t> constants(5);
+    constants[NIGHTCITY_CONSTANT_MEDIA] = choice.media ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_EMITTER] = emitterConstant(choice.model.emitter);
+    constants[NIGHTCITY_CONSTANT_VISIBILITY] = choice.model.visibility == Visibility::full ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_LISTED] = choice.model.lights == Lights::listed ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_LIT] = choice.model.surfaces == Surfaces::lit ? 1 : 0;
+    return constants;
+}
+
 }  // namespace
 
 PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings)
     : choice(settings) {
     surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructure});
+    if (choice.method == Method::path) {
+        makePath(device);
+    } else {
+        makeMarch(device);
+    }
+    accumulate = makePipeline(device, "accumulate", kAccumulateSpirv, {},
+                              {choice.media ? 1u : 0u});
+}
+
+void PassPipelines::makeMarch(gpu::Device& device) {
     traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
     const bool uniform = choice.lights.storage == LightStorage::uniform;
     march = makePipeline(device, "march", kMarchSpirv,
@@ -61,14 +88,27 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
                           {NIGHTCITY_BINDING_STORAGE_PAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                            uniform ? 1 : choice.lights.count}},
                          marchConstants(choice));
-    accumulate = makePipeline(device, "accumulate", kAccumulateSpirv, {},
-                              {choice.media ? 1u : 0u});
+}
+
+void PassPipelines::makePath(gpu::Device& device) {
+    path = makePipeline(device, "path", kPathSpirv, {kStructure}, pathConstants(choice));
 }
 
 void PassPipelines::bind(const GpuScene& scene) {
     surface.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
+    if (choice.method == Method::path) {
+        path.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
+        return;
+    }
     traverse.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
     scene.lights().bind(march);
+}
+
+std::vector<const gpu::ComputePipeline*> PassPipelines::all() const {
+    if (choice.method == Method::path) {
+        return {&surface, &path, &accumulate};
+    }
+    return {&surface, &traverse, &march, &accumulate};
 }
 
 }  // namespace nightcity

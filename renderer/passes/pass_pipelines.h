@@ -4,6 +4,8 @@
 // The compute pipelines of a frame, made for one choice of settings.
 #pragma once
 
+#include <vector>
+
 #include "gpu/compute_pipeline.h"
 #include "passes/gpu_scene.h"
 #include "settings.h"
@@ -12,10 +14,14 @@ namespace nightcity {
 
 // Settings that pipelines are specialised to.
 struct PipelineChoice {
+    Method method = Method::march;
+    bool media = true;
+    // Of the march:
     MarchOrder order = MarchOrder::lights;
     LightPages lights;
     std::uint32_t subdivisions = 25;
-    bool media = true;
+    // Of the path tracer:
+    Model model;
 
     bool operator==(const PipelineChoice&) const = default;
 };
@@ -23,13 +29,20 @@ struct PipelineChoice {
 struct PassPipelines {
     PipelineChoice choice;
     gpu::ComputePipeline surface;
-    gpu::ComputePipeline traverse;
+    gpu::ComputePipeline traverse;  // with the march only
     gpu::ComputePipeline march;
+    gpu::ComputePipeline path;      // with the path tracer only
     gpu::ComputePipeline accumulate;
 
     PassPipelines(gpu::Device& device, const PipelineChoice& choice);
     // To be called when the scene's structure or lists were made anew.
     void bind(const GpuScene& scene);
+    // Those of the method, in the order of the passes.
+    std::vector<const gpu::ComputePipeline*> all() const;
+
+private:
+    void makeMarch(gpu::Device& device);
+    void makePath(gpu::Device& device);
 };
 
 }  // namespace nightcity

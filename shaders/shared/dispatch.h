@@ -30,8 +30,23 @@ NIGHTCITY_CONST uint kMaskLoosePanes = 4u;   // emitters that stand on no facade
 #define NIGHTCITY_CONSTANT_PAGE_COUNT 2
 #define NIGHTCITY_CONSTANT_PAGE_ENTRIES 3    // LightEntry a page, a power of two
 #define NIGHTCITY_CONSTANT_SUBDIVISIONS 4    // steps a segment
-// Specialization constant of accumulate.comp.
+// Specialization constant of accumulate.comp and path.comp.
 #define NIGHTCITY_CONSTANT_MEDIA 0           // 0: surface frame
+// Specialization constants of path.comp: the model.
+#define NIGHTCITY_CONSTANT_EMITTER 1         // kEmitterIsotropic and so on
+#define NIGHTCITY_CONSTANT_VISIBILITY 2      // 1: opaque surfaces hide windows
+#define NIGHTCITY_CONSTANT_LISTED 3          // 1: only the windows that a media box lists
+#define NIGHTCITY_CONSTANT_LIT 4             // 1: windows light surfaces
+
+// As Emitter of settings.h.
+NIGHTCITY_CONST uint kEmitterIsotropic = 0u;
+NIGHTCITY_CONST uint kEmitterLambertian = 1u;
+NIGHTCITY_CONST uint kEmitterPane = 2u;
+
+// Paths a pixel in one dispatch of path.comp. Sums run over such groups, so a change
+// of it changes the last bits of an image.
+NIGHTCITY_CONST uint kPathsPerDispatch = 16u;
+NIGHTCITY_CONST uint kNoLastOrder = 0xffffffffu;
 
 // A media box as the march reads it.
 struct MarchMedium {
@@ -54,6 +69,17 @@ NIGHTCITY_CONST uint kRunLengthExponent = 0x3f800000u;
 // Of the kind of page that is not used, one this large is bound and never read.
 NIGHTCITY_CONST uint kUnusedPageEntries = 1024u;
 
+// A node of the tree over the lit windows. The first child of an inner node follows it.
+NIGHTCITY_CONST uint kLightLeaf = 0x80000000u;
+struct LightNode {
+    vec3 lo;        // m, bounds of the emitting points
+    float power;    // W, the mean of the channels
+    vec3 hi;
+    float coneCos;  // of the half angle about `axis` that holds every normal; -1: all directions
+    vec3 axis;      // unit vector
+    uint child;     // index of the second child, or of a window with kLightLeaf
+};
+
 struct SceneTable {
     uvec2 positions;       // vec3
     uvec2 texcoords;       // vec2; 0 where there are none
@@ -73,6 +99,9 @@ struct SceneTable {
     uint groundMaterial;   // into Material, or kNone without a ground
     uint surfaceMask;      // kMaskTriangles and kMaskLoosePanes, where there are any
     uint mediaMask;        // kMaskMedia, where there is any
+    uvec2 lightNodes;      // LightNode, the root first; 0 without lit windows
+    uvec2 lightList;       // uint into Window, as MediaBox.firstLight counts them
+    uvec2 lightTrails;     // uint a window: bit i says which child leads to it at level i
 };
 
 struct FrameTable {
@@ -97,6 +126,15 @@ struct FrameTable {
     uint centreSample;  // whose depth, normal and ids are kept
     CameraFrame camera;
     vec3 positionLow;   // m, added to camera.position: what float lost of it
+    // Of the path tracer; 0 for other methods.
+    uvec2 pathSums;     // PathSums, one a ray of the band
+    uvec2 glowSquares;  // vec3, one a pixel of the band: sum over all paths of glow^2
+    uvec2 glowError;    // vec3, one a pixel of the band: the standard error of glow
+    uvec2 seed;
+    uint paths;         // a pixel sample
+    uint firstOrder;    // of scattering, from 1
+    uint lastOrder;     // or kNoLastOrder
+    float anisotropy;   // g of Henyey and Greenstein
 };
 
 struct PushConstants {
@@ -105,7 +143,7 @@ struct PushConstants {
     uint firstPixel;   // of the band, in the order of the frame or the pixel list
     uint pixelCount;   // of the band
     uint sampleIndex;
-    uint round;        // of the traversal, from 0
+    uint round;        // of the traversal, or of the paths; from 0
 };
 
 // What a ray ends on: a triangle's index, a window's with this bit, the ground, or kNone.
@@ -137,9 +175,15 @@ struct Segment {
     vec3 span;   // m, from start to the end
 };
 
+// Over the paths of one pixel sample so far.
+struct PathSums {
+    vec3 glow;       // W m^-2 sr^-1
+    vec3 reflected;  // W m^-2 sr^-1, by the surface that the camera sees
+};
+
 struct PassCounters {
     uint unfinished;         // rays with more segments than slots
-    uint lightSegmentsLow;   // sum over the segments of the lights of their box
+    uint lightSegmentsLow;   // march: sum over the segments of the lights of their box; path: light samples
     uint lightSegmentsHigh;  // the same, upper 32 bits
 };
 

@@ -16,6 +16,7 @@ NIGHTCITY_BEGIN
 using glm::ivec2;
 using glm::uvec2;
 using glm::uvec3;
+using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;

@@ -14,13 +14,16 @@ NIGHTCITY_BEGIN
 using glm::abs;
 using glm::ceil;
 using glm::clamp;
+using glm::cos;
 using glm::cross;
 using glm::dot;
 using glm::exp;
 using glm::exp2;
+using glm::log;
 using glm::log2;
 using glm::max;
 using glm::min;
+using glm::sin;
 using glm::sqrt;
 NIGHTCITY_END
 #else

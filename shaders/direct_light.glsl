@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Light that comes straight from one window to a point, by one random point of the
+// window (design section 4).
+#ifndef NIGHTCITY_SHADERS_DIRECT_LIGHT_GLSL
+#define NIGHTCITY_SHADERS_DIRECT_LIGHT_GLSL
+
+#include "intersect.glsl"
+#include "light_tree.glsl"
+#include "transport/spherical_rectangle.h"
+
+layout(constant_id = NIGHTCITY_CONSTANT_VISIBILITY) const uint kVisibility = 0;
+
+// A pane is sampled by solid angle nearer than this, in units of its half diagonal, and
+// where that angle is not so small that its rounding counts; else by area.
+const float kNearPane = 4.0;
+const float kSmallSolidAngle = 0.01;  // sr
+
+uint lightSamples = 0;  // drawn by this thread
+
+struct DirectLight {
+    vec3 fluence;    // W m^-2
+    vec3 direction;  // unit vector, to the emitting point
+};
+
+// Before visibility and attenuation, at `place` of the window.
+struct EmitterSample {
+    vec3 place;
+    float perWatt;  // m^-2, fluence of 1 W
+};
+
+vec3 paneSample(Window window, vec3 point, vec2 u, out float perWatt) {
+    vec2 halfSize = vec2(length(window.halfU), length(window.halfV));
+    vec3 axisU = window.halfU / halfSize.x;
+    vec3 axisV = window.halfV / halfSize.y;
+    vec3 normal = cross(axisU, axisV);
+    vec3 toCentre = window.centre - point;
+    float height = -dot(toCentre, normal);  // m, above the pane's bright side
+    perWatt = 0.0;
+    if (height <= 0.0) {
+        return window.centre;
+    }
+    vec2 across = vec2(dot(toCentre, axisU), dot(toCentre, axisV));
+    float area = 4.0 * halfSize.x * halfSize.y;
+    vec2 at = across + (2.0 * u - 1.0) * halfSize;
+    bool near = squared(toCentre) < kNearPane * kNearPane * dot(halfSize, halfSize);
+    SphericalRectangle rectangle;
+    if (near) {
+        // The listing's z axis points away from the pane.
+        rectangle = sphericalRectangle(vec3(across - halfSize, -height), 2.0 * halfSize);
+        near = rectangle.solidAngle > kSmallSolidAngle;
+    }
+    if (near) {
+        at = rectanglePoint(rectangle, u);
+        perWatt = rectangle.solidAngle / (kPi * area);
+    } else {
+        float distance2 = dot(at, at) + height * height;
+        perWatt = height / (kPi * distance2 * sqrt(distance2));
+    }
+    return point + at.x * axisU + at.y * axisV - height * normal;
+}
+
+EmitterSample sampleEmitter(Window window, vec3 point, vec2 u) {
+    vec3 way = point - window.centre;
+    float distance2 = squared(way);
+    float perWatt = kInverse4Pi / distance2;
+    if ((window.flags & kWindowSphere) != 0u) {  // isotropic in every model, dark inside
+        return EmitterSample(window.centre, distance2 < squared(window.halfU) ? 0.0 : perWatt);
+    }
+    if (kEmitter == kEmitterPane) {
+        vec3 place = paneSample(window, point, u, perWatt);
+        return EmitterSample(place, perWatt);
+    }
+    if (kEmitter == kEmitterLambertian) {
+        perWatt *= 4.0 * max(dot(way, paneNormal(window)), 0.0) / sqrt(distance2);
+    }
+    return EmitterSample(window.centre, distance2 > 0.0 ? perWatt : 0.0);
+}
+
+// Between the emitting point and the other. Without visibility: the haze of the point's
+// own box, `extinction`, all the way.
+float transmittanceTo(vec3 place, vec3 point, float extinction) {
+    vec3 way = place - point;
+    float reach = length(way);
+    if (kVisibility == 0u) {
+        return exp(-extinction * reach);
+    }
+    if (isHidden(place, point)) {
+        return 0.0;
+    }
+    MediaSpan span = mediaSpan(Ray(point, way / reach), reach);
+    return exp(-span.depth);
+}
+
+DirectLight directLight(uint index, vec3 point, float extinction, inout RandomStream random) {
+    ++lightSamples;
+    Window window = WindowArray(sceneTable.windows).at[index];
+    EmitterSample emitter = sampleEmitter(window, point, nextRandomPair(random));
+    vec3 way = emitter.place - point;
+    DirectLight light = DirectLight(vec3(0.0), way / max(length(way), 1e-20));
+    if (emitter.perWatt > 0.0) {
+        light.fluence = emitter.perWatt * transmittanceTo(emitter.place, point, extinction) *
+                        window.power * window.colour;
+    }
+    return light;
+}
+
+#endif

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Unbiased Monte Carlo: paths from the camera, with light drawn from the windows at each
+// event (next event estimation) and the haze on the camera's ray always met, by weight.
+// The order of a path is the number of its events: scattering in haze, reflection by a
+// surface.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// glslang 12 crashes while it spreads `precise` through this program. No path needs it: it is
+// there for segments that share an end to the bit.
+#define precise
+
+#include "counters.glsl"
+#include "in_scattered_light.glsl"
+#include "surface_shading.glsl"
+
+layout(local_size_x = kGroupSize) in;
+layout(constant_id = NIGHTCITY_CONSTANT_LIT) const uint kLit = 0;
+
+// m, off a surface: where the next ray begins, so that it does not meet the same surface.
+const float kOffSurface = 1e-4;
+// Russian roulette from this order on, and never with less than one path in twenty ended.
+const uint kRouletteOrder = 4;
+const float kMostSurvival = 0.95;
+
+struct Path {
+    Ray ray;          // unit direction
+    vec3 throughput;
+    uint order;       // of the next event
+};
+
+// Where a ray ends: distance (m), and what the surface there reflects.
+struct RayEnd {
+    float distance;
+    vec3 normal;
+    vec3 reflectance;
+};
+
+bool wanted(uint order) {
+    return order >= frameTable.firstOrder && order <= frameTable.lastOrder;
+}
+
+vec3 reflectanceOf(SurfaceRecord record) {
+    return record.primitive == kNone || isPane(record.primitive) ? vec3(0.0)
+                                                                 : record.radiance / kDim;
+}
+
+RayEnd endOf(Ray ray) {
+    if (kLit != 0u) {
+        SurfaceRecord record = nearestSurface(ray);
+        return RayEnd(record.depth, record.normal, reflectanceOf(record));
+    }
+    TriangleHit hit = nearestTriangle(ray, groundDepth(ray));
+    return RayEnd(hit.depth, vec3(0.0), vec3(0.0));
+}
+
+MediaSpan hazeOn(Ray ray, float end) {
+    if (kMedia == 0u) {
+        return MediaSpan(kFar, 0.0, 0.0, kNone);
+    }
+    return mediaSpan(ray, end);
+}
+
+// Radiance that a surface reflects of the light straight from a window.
+vec3 reflectedLight(Ray ray, RayEnd end, inout RandomStream random) {
+    vec3 point = ray.origin + end.distance * ray.direction;
+    uint box = kNone;
+    if (kMedia != 0u) {
+        MediumPoint medium = mediumAtDistance(ray, end.distance);
+        box = medium.box;
+    }
+    float extinction = box == kNone ? 0.0 : extinctionOf(box);
+    LightChoice light = chooseLight(lightsAt(point, extinction), random);
+    if (light.window == kNone ||
+        (kListed != 0u &&
+         (box == kNone || !isListed(MediaBoxArray(sceneTable.mediaBoxes).at[box], light.window)))) {
+        return vec3(0.0);
+    }
+    DirectLight direct =
+        directLight(light.window, point + kOffSurface * end.normal, extinction, random);
+    float received = max(dot(direct.direction, end.normal), 0.0);
+    return end.reflectance / kPi * received / light.probability * direct.fluence;
+}
+
+Path scattered(Path path, float distance, float albedo, inout RandomStream random) {
+    vec2 u = nextRandomPair(random);
+    vec3 origin = path.ray.origin + distance * path.ray.direction;
+    vec3 direction =
+        directionAbout(path.ray.direction, phaseCosine(frameTable.anisotropy, u.x), u.y);
+    return Path(Ray(origin, normalize(direction)), albedo * path.throughput, path.order + 1u);
+}
+
+Path reflected(Path path, RayEnd end, inout RandomStream random) {
+    vec2 u = nextRandomPair(random);
+    vec3 origin =
+        path.ray.origin + end.distance * path.ray.direction + kOffSurface * end.normal;
+    vec3 direction = directionAbout(end.normal, sqrt(1.0 - u.x), u.y);
+    return Path(Ray(origin, normalize(direction)), path.throughput * end.reflectance,
+                path.order + 1u);
+}
+
+bool survives(inout Path path, inout RandomStream random) {
+    float most = max(path.throughput.r, max(path.throughput.g, path.throughput.b));
+    if (path.order < kRouletteOrder) {
+        return most > 0.0;
+    }
+    float survival = min(most, kMostSurvival);
+    if (nextRandom(random) >= survival) {
+        return false;
+    }
+    path.throughput /= survival;
+    return true;
+}
+
+// What the rest of a path brings.
+vec3 walk(Path path, inout RandomStream random) {
+    vec3 light = vec3(0.0);
+    while (path.order <= frameTable.lastOrder && survives(path, random)) {
+        RayEnd end = endOf(path.ray);
+        MediaSpan span = hazeOn(path.ray, end.distance);
+        if (wanted(path.order)) {
+            light += path.throughput * inScatteredLight(path.ray, span, random);
+        }
+        float depth = depthOfShare(nextRandom(random));
+        if (depth < span.depth) {
+            MediumPoint medium = mediumAtDepth(path.ray, span.end, depth);
+            float albedo = MediaBoxArray(sceneTable.mediaBoxes).at[medium.box].albedo;
+            path = scattered(path, medium.distance, albedo, random);
+        } else if (end.reflectance != vec3(0.0)) {
+            if (wanted(path.order)) {
+                light += path.throughput * reflectedLight(path.ray, end, random);
+            }
+            path = reflected(path, end, random);
+        } else {
+            break;
+        }
+    }
+    return light;
+}
+
+// Of the haze before the first surface.
+vec3 glowOf(Ray ray, MediaSpan span, inout RandomStream random) {
+    vec3 light = wanted(1) ? inScatteredLight(ray, span, random) : vec3(0.0);
+    if (frameTable.lastOrder == 1 || span.depth <= 0.0) {
+        return light;
+    }
+    float colliding = collisionProbability(span.depth);
+    float depth = depthOfShare(nextRandom(random) * colliding);
+    MediumPoint medium = mediumAtDepth(ray, span.end, depth);
+    float albedo = MediaBoxArray(sceneTable.mediaBoxes).at[medium.box].albedo;
+    Path path = Path(ray, vec3(colliding), 1u);
+    return light + walk(scattered(path, medium.distance, albedo, random), random);
+}
+
+// Of the first surface, before the haze in front of it.
+vec3 reflectedBy(Ray ray, RayEnd end, inout RandomStream random) {
+    vec3 light = wanted(1) ? reflectedLight(ray, end, random) : vec3(0.0);
+    if (frameTable.lastOrder == 1) {
+        return light;
+    }
+    return light + walk(reflected(Path(ray, vec3(1.0), 1u), end, random), random);
+}
+
+void finish(uint index, SurfaceRecord surface, MediaSpan span, PathSums sums) {
+    float weight = 1.0 / float(frameTable.paths);
+    RayProgress progress;
+    progress.lastEntry = 0.0;
+    progress.lastBox = kNone;
+    progress.segments = 0u;
+    progress.firstMediaId =
+        span.firstBox == kNone ? -1 : MediaBoxArray(sceneTable.mediaBoxes).at[span.firstBox].mediaId;
+    progress.glow = weight * sums.glow;
+    progress.opticalDepth = span.depth;
+    RayProgressArray(frameTable.progress).at[index] = progress;
+    // What surfaces emit, and what the dim view shows of them, is part of the first order.
+    vec3 seen = wanted(1) ? surface.radiance : vec3(0.0);
+    SurfaceRecordArray(frameTable.surfaces).at[index].radiance = seen + weight * sums.reflected;
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= push.pixelCount) {
+        return;
+    }
+    uvec2 pixel = pixelOf(push.firstPixel + index);
+    Ray view = cameraRay(pixel, push.sampleIndex);
+    float scale = length(view.direction);
+    Ray ray = Ray(view.origin, view.direction / scale);
+    SurfaceRecord surface = SurfaceRecordArray(frameTable.surfaces).at[index];
+    RayEnd end = RayEnd(surface.depth * scale, surface.normal,
+                        kLit != 0u ? reflectanceOf(surface) : vec3(0.0));
+    MediaSpan span = hazeOn(ray, end.distance);
+    PathSums sums = PathSums(vec3(0.0), vec3(0.0));
+    vec3 squares = vec3(0.0);
+    uint first = push.round * kPathsPerDispatch;
+    uint count = min(kPathsPerDispatch, frameTable.paths - first);
+    for (uint i = 0; i < count; ++i) {
+        uint number = push.sampleIndex * frameTable.paths + first + i;
+        RandomStream random = randomStream(pixel, number, frameTable.seed);
+        vec3 glow = glowOf(ray, span, random);
+        sums.glow += glow;
+        squares += glow * glow;
+        if (end.reflectance != vec3(0.0)) {
+            sums.reflected += reflectedBy(ray, end, random);
+        }
+    }
+    if (push.round > 0u) {
+        sums.glow += PathSumsArray(frameTable.pathSums).at[index].glow;
+        sums.reflected += PathSumsArray(frameTable.pathSums).at[index].reflected;
+    }
+    if (push.round > 0u || push.sampleIndex > 0u) {
+        squares += Vec3Array(frameTable.glowSquares).at[index];
+    }
+    Vec3Array(frameTable.glowSquares).at[index] = squares;
+    PathSumsArray(frameTable.pathSums).at[index] = sums;
+    if (first + count == frameTable.paths) {
+        finish(index, surface, span, sums);
+    }
+    countLights(lightSamples);
+}

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The path tracer against the judge (design section 5).
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "device_frame.h"
+#include "reference/reference_renderer.h"
+
+namespace nightcity {
+namespace {
+
+// Of pixels whose judged glow is not 0; green, for channels of one window rise and fall together.
+struct Agreement {
+    std::size_t pixels = 0;
+    double bias = 0;           // of the mean, in its standard errors
+    double standardError = 0;  // of the mean, relative
+    double worst = 0;          // z of a pixel
+};
+
+Agreement agreement(const Frame& frame, const Frame& judged) {
+    double sum = 0, expected = 0, variance = 0;
+    Agreement result;
+    for (std::size_t i = 0; i < judged.glow.size(); ++i) {
+        const double found = frame.glow[i].y, truth = judged.glow[i].y;
+        const double error = frame.glowError[i].y;
+        if (truth == 0) {
+            EXPECT_EQ(found, 0);
+            continue;
+        }
+        ++result.pixels;
+        sum += found;
+        expected += truth;
+        variance += error * error;
+        result.worst = std::max(result.worst, std::abs(found - truth) / error);
+    }
+    result.bias = (sum - expected) / std::sqrt(variance);
+    result.standardError = std::sqrt(variance) / expected;
+    return result;
+}
+
+// Sidak: |z| that the largest of n independent normal numbers passes with probability 1 %.
+double largestZ(std::size_t n) {
+    const double each = 1 - std::pow(0.99, 1 / double(n));
+    double low = 0, high = 10;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (std::erfc(middle / std::sqrt(2)) > each ? low : high) = middle;
+    }
+    return high;
+}
+
+RenderSettings pathSettings(const Model& model, std::uint32_t samples) {
+    RenderSettings settings;
+    settings.method = Method::path;
+    settings.model = model;
+    settings.samples = samples;
+    settings.seed = 11;
+    return settings;
+}
+
+Frame judge(const FlatScene& scene, const RenderProduct& product, const Model& model) {
+    RenderSettings settings;
+    settings.method = Method::reference;
+    settings.model = model;
+    settings.tolerance = 0.001;
+    return renderReference(scene, product, settings, {}).frame;
+}
+
+struct Case {
+    const char* camera;
+    Model model;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.camera << (c.model.lights == Lights::all ? " all" : " listed")
+         << (c.model.visibility == Visibility::full ? " full" : " none")
+         << (c.model.emitter == Emitter::isotropic    ? " isotropic"
+             : c.model.emitter == Emitter::lambertian ? " lambertian"
+                                                      : " pane");
+}
+
+class PathAndJudge : public testing::TestWithParam<Case> {};
+
+TEST_P(PathAndJudge, AgreeOnThePaperCity) {
+    const FlatScene scene = paperCity(2).load();
+    RenderProduct product = productOf(GetParam().camera, 1920, 1061);
+    product.pixels = selectPixels(scene, product, 32, 3);
+    const Frame frame = renderOnDevice(scene, product, pathSettings(GetParam().model, 24576));
+    const Agreement found = agreement(frame, judge(scene, product, GetParam().model));
+    EXPECT_GT(found.pixels, 20u);
+    EXPECT_LT(std::abs(found.bias), 3);
+    EXPECT_LT(found.worst, largestZ(found.pixels));
+    EXPECT_LT(found.standardError, 0.005);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, PathAndJudge,
+    testing::Values(
+        Case{"overview75", {Lights::all, Visibility::full, Emitter::pane}},
+        Case{"street", {Lights::all, Visibility::full, Emitter::lambertian}},
+        Case{"overview75", {Lights::all, Visibility::full, Emitter::isotropic}},
+        Case{"street", {Lights::all, Visibility::none, Emitter::pane}},
+        Case{"street", {Lights::all, Visibility::none, Emitter::lambertian}},
+        Case{"overview75", {Lights::all, Visibility::none, Emitter::isotropic}},
+        Case{"street", {Lights::listed, Visibility::full, Emitter::pane}},
+        Case{"overview75", {Lights::listed, Visibility::none, Emitter::isotropic}}));
+
+constexpr Model kSingle{Lights::all, Visibility::full, Emitter::pane};
+
+Model multiple(Surfaces surfaces = Surfaces::dim) {
+    Model model = kSingle;
+    model.scattering = Scattering::multiple;
+    model.surfaces = surfaces;
+    return model;
+}
+
+double sum(const std::vector<glm::vec3>& values) {
+    double total = 0;
+    for (const glm::vec3& value : values) {
+        total += value.y;
+    }
+    return total;
+}
+
+double errorOfSum(const Frame& frame) {
+    double variance = 0;
+    for (const glm::vec3& error : frame.glowError) {
+        variance += double(error.y) * error.y;
+    }
+    return std::sqrt(variance);
+}
+
+class PaperPaths : public testing::Test {
+protected:
+    PaperPaths() {
+        product_.pixels = selectPixels(scene_, product_, 64, 5);
+    }
+
+    Frame render(const Model& model, std::uint32_t samples, Orders orders = {},
+                 std::uint64_t seed = 1, float g = 0) {
+        RenderSettings settings = pathSettings(model, samples);
+        settings.orders = orders;
+        settings.seed = seed;
+        settings.anisotropy = g;
+        return renderOnDevice(scene_, product_, settings);
+    }
+
+    FlatScene scene_ = paperCity(1).load();
+    RenderProduct product_ = productOf("overview75", 640, 360);
+};
+
+TEST_F(PaperPaths, OrdersAddUp) {
+    for (const Surfaces surfaces : {Surfaces::dim, Surfaces::lit}) {
+        const Frame all = render(multiple(surfaces), 1024, {}, 1);
+        const Frame first = render(multiple(surfaces), 1024, {1, 1}, 2);
+        const Frame rest = render(multiple(surfaces), 1024, {2, std::nullopt}, 3);
+        const double noise = std::hypot(errorOfSum(all), errorOfSum(first), errorOfSum(rest));
+        EXPECT_LT(std::abs(sum(first.glow) + sum(rest.glow) - sum(all.glow)), 3 * noise);
+        EXPECT_GT(sum(rest.glow), 10 * errorOfSum(rest));
+    }
+}
+
+TEST_F(PaperPaths, SameSeedSameBytesWhateverThePixelList) {
+    const Frame once = render(multiple(Surfaces::lit), 40);
+    const Frame again = render(multiple(Surfaces::lit), 40);
+    EXPECT_EQ(once.glow, again.glow);
+    EXPECT_EQ(once.glowError, again.glowError);
+    EXPECT_EQ(once.surface, again.surface);
+    EXPECT_NE(once.glow, render(multiple(Surfaces::lit), 40, {}, 2).glow);
+    std::reverse(product_.pixels.begin(), product_.pixels.end());
+    const Frame turned = render(multiple(Surfaces::lit), 40);
+    for (std::size_t i = 0; i < once.glow.size(); ++i) {
+        EXPECT_EQ(once.glow[i], turned.glow[once.glow.size() - 1 - i]);
+    }
+}
+
+// Over seeds, (mean - truth) / error is a normal number: the mean of its square is 1.
+TEST_F(PaperPaths, StandardErrorIsHonest) {
+    const Frame judged = judge(scene_, product_, kSingle);
+    double squares = 0, count = 0;
+    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+        const Frame frame = render(kSingle, 512, {}, seed);
+        for (std::size_t i = 0; i < judged.glow.size(); ++i) {
+            if (judged.glow[i].y > 0) {
+                const double z = (frame.glow[i].y - judged.glow[i].y) / frame.glowError[i].y;
+                squares += z * z;
+                ++count;
+            }
+        }
+    }
+    EXPECT_NEAR(squares / count, 1, 0.2);
+}
+
+TEST_F(PaperPaths, AlbedoZeroScattersNothing) {
+    scene_ = paperCity(1, 0.01f, 0).load();
+    EXPECT_EQ(sum(render(multiple(), 32).glow), 0);
+}
+
+}  // namespace
+}  // namespace nightcity
