@@ -192,7 +192,8 @@ def test_town(nightcity: Command, tmp_path: Path) -> None:
         (("--size", "0x10"), 2, "size"),
         (("--subdivisions", "0"), 2, "subdivisions"),
         (("--method", "guess"), 2, "march"),
-        (("--model", "full"), 2, "paper"),
+        (("--model", "full"), 2, "--method path"),
+        (("--model", "best"), 2, "paper"),
     ],
 )
 def test_wrong_options(

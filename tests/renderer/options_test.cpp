@@ -79,10 +79,27 @@ TEST(Options, VersionAndHelpAreAnswered) {
     EXPECT_NE(shown.find("--march-order"), std::string::npos);
 }
 
-TEST(Options, WhatIsNotThereYetIsRefusedByName) {
-    EXPECT_REFUSED("there is paper", "s", "-o", "a.exr", "--model", "full");
-    EXPECT_REFUSED("there is march and reference", "s", "-o", "a.exr", "--method", "path");
-    EXPECT_REFUSED("there is single", "s", "-o", "a.exr", "--scattering", "multiple");
+TEST(Options, UnknownChoicesNameTheKnownOnes) {
+    EXPECT_REFUSED("there is march", "s", "-o", "a.exr", "--method", "field");
+    EXPECT_REFUSED("there is single", "s", "-o", "a.exr", "--scattering", "twice");
+    EXPECT_REFUSED("there is paper", "s", "-o", "a.exr", "--model", "best");
+}
+
+TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
+    EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--model", "full");
+    EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--scattering", "multiple");
+    EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--samples", "8");
+    EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--orders", "2-");
+    EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--g", "0.5");
+    EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--aovs", "glowError");
+    EXPECT_REFUSED("--method reference", "s", "-o", "a.exr", "--lights", "all");
+    EXPECT_REFUSED("--method reference", "s", "-o", "a.exr", "--visibility", "full");
+    for (const char* option : {"--subdivisions", "--light-cap"}) {
+        EXPECT_REFUSED(option, "s", "-o", "a.exr", "--method", "path", option, "5");
+    }
+    EXPECT_REFUSED("--samples 1", "s", "-o", "a.exr", "--method", "path", "--samples", "1");
+    EXPECT_REFUSED("--g", "s", "-o", "a.exr", "--method", "path", "--g", "1");
+    EXPECT_REFUSED("--scattering multiple", "s", "-o", "a.exr", "--method", "path", "--orders", "2-");
 }
 
 TEST(Options, BadValuesAreRefused) {
