@@ -102,6 +102,7 @@ struct SceneTable {
     uvec2 lightNodes;      // LightNode, the root first; 0 without lit windows
     uvec2 lightList;       // uint into Window, as MediaBox.firstLight counts them
     uvec2 lightTrails;     // uint a window: bit i says which child leads to it at level i
+    uvec2 farField;        // FarFieldTable of far_field.h; 0 for methods without
 };
 
 struct FrameTable {

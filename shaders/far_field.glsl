@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reads the far part of the fluence. A ray walks the lattice brick by brick (a brick
+// that is kNone holds no haze), clips its part of each to the media of the brick, and samples
+// between:
+//
+//     FarFieldTable field = farFieldTable;
+//     uint index = brickAt(field, cell);
+//     FarBrick brick = FarBrickArray(field.bricks).at[index];
+//     vec3 fluence = farFluence(field, brick, (x - brickCorner(field, cell)) / field.brickSide);
+#ifndef NIGHTCITY_SHADERS_FAR_FIELD_GLSL
+#define NIGHTCITY_SHADERS_FAR_FIELD_GLSL
+
+#include "addresses.glsl"
+#include "far_field.h"
+
+NIGHTCITY_ARRAY(FarBrickArray, FarBrick)
+NIGHTCITY_ARRAY(FarMediumArray, FarMedium)
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FarFieldReference {
+    FarFieldTable table;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FarNodeArray {
+    uvec2 at[];
+};
+
+#define farFieldTable FarFieldReference(sceneTable.farField).table
+
+// Lower corner of a lattice cell, m.
+vec3 brickCorner(FarFieldTable field, ivec3 cell) {
+    return field.origin + vec3(cell) * field.brickSide;
+}
+
+// Into the bricks; kNone outside the lattice and where there is no haze.
+uint brickAt(FarFieldTable field, ivec3 cell) {
+    ivec3 counts = ivec3(field.brickCounts);
+    if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, counts))) {
+        return kNone;
+    }
+    return UintArray(field.index).at[(cell.z * counts.y + cell.y) * counts.x + cell.x];
+}
+
+// In nodeUnit.
+vec3 farNode(FarFieldTable field, uint node) {
+    uvec2 halves = FarNodeArray(field.nodes).at[node];
+    return vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x);
+}
+
+// W m^-2 at a place of the brick, from (0, 0, 0) at its lower corner to (1, 1, 1): trilinear.
+// Times scattering / (4 pi) it is the source of in-scattered radiance.
+vec3 farFluence(FarFieldTable field, FarBrick brick, vec3 place) {
+    uint cells = kBrickCells >> brick.level;
+    uint side = cells + 1u;
+    vec3 grid = clamp(place, vec3(0.0), vec3(1.0)) * float(cells);
+    vec3 corner = min(floor(grid), vec3(float(cells) - 1.0));
+    vec3 t = grid - corner;
+    uvec3 at = uvec3(corner);
+    uint node = brick.firstNode + (at.z * side + at.y) * side + at.x;
+    vec3 low = mix(mix(farNode(field, node), farNode(field, node + 1u), t.x),
+                   mix(farNode(field, node + side), farNode(field, node + side + 1u), t.x), t.y);
+    node += side * side;
+    vec3 high = mix(mix(farNode(field, node), farNode(field, node + 1u), t.x),
+                    mix(farNode(field, node + side), farNode(field, node + side + 1u), t.x), t.y);
+    return mix(low, high, t.z) * field.nodeUnit;
+}
+
+#endif
