@@ -6,7 +6,6 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "primitives.glsl"
-#include "transport/exponential.glsl"
 
 layout(local_size_x = kGroupSize) in;
 layout(constant_id = NIGHTCITY_CONSTANT_MEDIA) const uint kMedia = 1;
@@ -39,7 +38,7 @@ void main() {
     if (kMedia != 0u) {
         RayProgress progress = RayProgressArray(frameTable.progress).at[index];
         glow = progress.glow;
-        transmittance = expNegative(progress.opticalDepth);
+        transmittance = exp(-progress.opticalDepth);
         firstMediaId = progress.firstMediaId;
     }
     float weight = 1.0 / float(frameTable.sampleCount);

@@ -7,7 +7,6 @@
 #define NIGHTCITY_TRANSPORT_IN_SCATTER_GLSL
 
 #include "constants.glsl"
-#include "exponential.glsl"
 
 // m^2, only against division by zero where a step falls on a light.
 const float kSmallestDistance2 = 1e-12;
@@ -17,7 +16,7 @@ const float kSmallestDistance2 = 1e-12;
 // `opticalDepth` before the eye.
 float attenuatedInverseSquare(vec3 toLight, float extinction, float opticalDepth) {
     float distance2 = max(dot(toLight, toLight), kSmallestDistance2);
-    return expNegative(extinction * sqrt(distance2) + opticalDepth) / distance2;
+    return exp(-(extinction * sqrt(distance2) + opticalDepth)) / distance2;
 }
 
 // The factor that turns sums over steps of power x attenuatedInverseSquare into
