@@ -34,6 +34,8 @@ NIGHTCITY_ARRAY(RayProgressArray, RayProgress)
 NIGHTCITY_ARRAY(SegmentArray, Segment)
 NIGHTCITY_ARRAY(LightNodeArray, LightNode)
 NIGHTCITY_ARRAY(PathSumsArray, PathSums)
+NIGHTCITY_ARRAY(BoxNodeArray, BoxNode)
+NIGHTCITY_ARRAY(OccluderFaceArray, OccluderFace)
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SceneReference {
     SceneTable table;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "passes/light_tree.h"
+#include "passes/occluder_tree.h"
 #include "scene/facades.h"
 
 namespace nightcity {
@@ -67,6 +68,7 @@ void GpuScene::syncGeometry(const FlatScene& scene) {
     arrays_.clear();
     contents_ = {};
     uploadGeometry(scene);
+    uploadOccluders(scene);
     buildTriangles(scene);
     buildMedia(scene);
     buildLoosePanes(scene);
@@ -93,6 +95,16 @@ void GpuScene::uploadGeometry(const FlatScene& scene) {
     contents_.lightList = uploadArray("light list", scene.lightList);
     contents_.groundMaterial = scene.ground ? scene.ground->material : kNone;
     contents_.groundHeight = scene.ground ? scene.ground->height : 0;
+}
+
+void GpuScene::uploadOccluders(const FlatScene& scene) {
+    const OccluderTree tree = buildOccluderTree(scene);
+    if (tree.nodes.empty()) {
+        return;
+    }
+    contents_.occluderNodes = uploadArray<BoxNode>("occluder tree", tree.nodes);
+    contents_.occluderFaces = uploadArray<OccluderFace>("occluder faces", tree.faces);
+    contents_.occluderCorners = uploadArray<vec3>("occluder corners", tree.corners);
 }
 
 void GpuScene::buildTriangles(const FlatScene& scene) {

@@ -37,6 +37,7 @@ private:
     template <typename T>
     uvec2 uploadArray(const char* name, std::span<const T> data);
     void uploadGeometry(const FlatScene& scene);
+    void uploadOccluders(const FlatScene& scene);
     void buildTriangles(const FlatScene& scene);
     void buildMedia(const FlatScene& scene);
     void buildLoosePanes(const FlatScene& scene);

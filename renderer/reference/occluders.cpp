@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/convex_face.h"
-
 namespace nightcity {
 
 namespace {
@@ -84,50 +82,17 @@ bool ThickTriangle::mayTouch(std::span<const glm::dvec3> face) const {
 
 }  // namespace
 
-Occluders::Occluders(const FlatScene& scene) {
-    build(scene);
-    tree_.emplace(boundsOf(*this));
+Occluders::Occluders(const FlatScene& scene) : faces_(scene), tree_(faces_.bounds()) {
     if (scene.ground) {
         groundHeight_ = double(scene.ground->height);
     }
-}
-
-void Occluders::build(const FlatScene& scene) {
-    std::vector<glm::dvec3> face;
-    const auto close = [&] {
-        corners_.insert(corners_.end(), face.begin(), face.end());
-        if (!face.empty()) {
-            first_.push_back(std::uint32_t(corners_.size()));
-        }
-    };
-    for (const Triangle& triangle : scene.triangles) {
-        std::array<glm::dvec3, 3> corner;
-        for (int i = 0; i < 3; ++i) {
-            corner[std::size_t(i)] = glm::dvec3(scene.positions[triangle.vertex[i]]);
-        }
-        if (!joinTriangle(face, corner)) {
-            close();
-            face.assign(corner.begin(), corner.end());
-        }
-    }
-    close();
-}
-
-std::vector<Bounds> Occluders::boundsOf(const Occluders& faces) {
-    std::vector<Bounds> bounds(faces.size());
-    for (std::uint32_t i = 0; i < bounds.size(); ++i) {
-        for (const glm::dvec3 corner : faces.face(i)) {
-            bounds[i].add(corner);
-        }
-    }
-    return bounds;
 }
 
 std::vector<std::uint32_t> Occluders::between(glm::dvec3 point, double radius, glm::dvec3 begin,
                                               glm::dvec3 end) const {
     const ThickTriangle region(point, radius, begin, end);
     std::vector<std::uint32_t> faces;
-    tree_->visitWhere([&](const Bounds& box) { return region.mayTouch(box); },
+    tree_.visitWhere([&](const Bounds& box) { return region.mayTouch(box); },
                       [&](std::uint32_t index) {
                           if (region.mayTouch(face(index))) {
                               faces.push_back(index);

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Opaque geometry as convex faces: neighbouring triangles of one plane are one
-// face, so that a wall's shadow has no seam. The ground is none of them: a ray
-// above it ends on it, and what shines from below never reaches the ray.
+// Which convex faces may hide a stretch. The ground is none of them: a ray above it
+// ends on it, and what shines from below never reaches the ray.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +13,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/box_tree.h"
+#include "scene/convex_faces.h"
 #include "scene/flat_scene.h"
 
 namespace nightcity {
@@ -22,11 +22,8 @@ class Occluders {
 public:
     explicit Occluders(const FlatScene& scene);
 
-    // Corners in order, at least three; a view into this object.
-    std::span<const glm::dvec3> face(std::uint32_t index) const {
-        return {corners_.data() + first_[index], corners_.data() + first_[index + 1]};
-    }
-    std::size_t size() const { return first_.size() - 1; }
+    std::span<const glm::dvec3> face(std::uint32_t index) const { return faces_.face(index); }
+    std::size_t size() const { return faces_.size(); }
 
     // Indices, rising, of every face that may hide part of the stretch from a point
     // within `radius` (m) of `point`; some of them may hide nothing.
@@ -39,13 +36,9 @@ public:
     }
 
 private:
-    void build(const FlatScene& scene);
-    static std::vector<Bounds> boundsOf(const Occluders& faces);
-
-    std::vector<glm::dvec3> corners_;
-    std::vector<std::uint32_t> first_{0};  // into corners_, one more than faces
+    ConvexFaces faces_;
+    BoxTree tree_;
     std::optional<double> groundHeight_;   // m
-    std::optional<BoxTree> tree_;
 };
 
 }  // namespace nightcity

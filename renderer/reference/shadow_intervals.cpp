@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/convex_faces.h"
+
 namespace nightcity {
 
 namespace {
@@ -78,10 +80,7 @@ bool blocksLine(const ViewTriangle& view, std::span<const glm::dvec3> face) {
     const bool beginNearer =
         glm::dot(view.toBegin(), view.toBegin()) <= glm::dot(view.toEnd(), view.toEnd());
     const glm::dvec3 way = beginNearer ? view.toBegin() : view.toEnd();
-    glm::dvec3 normal(0);
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-        normal += glm::cross(face[i] - face[0], face[i + 1] - face[0]);
-    }
+    const glm::dvec3 normal = areaVector(face);
     const double along = glm::dot(way, normal);
     if (along == 0) {
         return false;

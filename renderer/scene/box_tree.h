@@ -14,6 +14,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene.h"
+
 namespace nightcity {
 
 struct Bounds {
@@ -43,6 +45,14 @@ public:
     explicit BoxTree(std::vector<Bounds> boxes);
 
     const Bounds& box(std::uint32_t index) const { return boxes_[index]; }
+
+    // The tree for readers without a stack: a node, then what it holds, one node a box.
+    struct DepthFirstNode {
+        Bounds bounds;
+        std::uint32_t next;  // the node that follows when what this one holds is skipped
+        std::uint32_t box;   // of a leaf; kNone: not one
+    };
+    std::vector<DepthFirstNode> depthFirst() const;
 
     // visit(index) for every box that touches the query.
     template <typename Visit>
@@ -98,6 +108,7 @@ private:
     };
 
     void split(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+    void appendDepthFirst(std::uint32_t node, std::vector<DepthFirstNode>& flat) const;
 
     std::vector<Bounds> boxes_;
     std::vector<std::uint32_t> order_;

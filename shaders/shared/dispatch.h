@@ -80,6 +80,22 @@ struct LightNode {
     uint child;     // index of the second child, or of a window with kLightLeaf
 };
 
+// A node of a tree over axis-aligned boxes, depth first: what it holds follows it, and
+// `next` is the node after that. A walk needs no stack, and ends at the root's `next`.
+struct BoxNode {
+    vec3 lo;    // m, rounded outward
+    uint next;
+    vec3 hi;
+    uint item;  // of a leaf, whose bounds are the item's; kNone: not a leaf
+};
+
+// An opaque convex face: neighbouring triangles of one plane (renderer/scene/convex_faces.h).
+struct OccluderFace {
+    vec3 normal;       // unit vector, outward; 0 for a face without area
+    uint firstCorner;  // into the corners, counter-clockwise seen from outside
+    uint cornerCount;  // at least 3
+};
+
 struct SceneTable {
     uvec2 positions;       // vec3
     uvec2 texcoords;       // vec2; 0 where there are none
@@ -103,6 +119,9 @@ struct SceneTable {
     uvec2 lightList;       // uint into Window, as MediaBox.firstLight counts them
     uvec2 lightTrails;     // uint a window: bit i says which child leads to it at level i
     uvec2 farField;        // FarFieldTable of far_field.h; 0 for methods without
+    uvec2 occluderNodes;   // BoxNode over the faces; 0 where nothing is opaque but the ground
+    uvec2 occluderFaces;   // OccluderFace
+    uvec2 occluderCorners; // vec3, m
 };
 
 struct FrameTable {

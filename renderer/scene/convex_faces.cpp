@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/convex_face.h"
+#include "scene/convex_faces.h"
 
+#include <array>
 #include <cmath>
 
 namespace nightcity {
@@ -9,15 +10,6 @@ namespace nightcity {
 namespace {
 
 constexpr double kPlanar = 1e-6;  // m; float32 corners of one wall differ by this much
-
-// Twice the area times the unit normal.
-glm::dvec3 areaVector(const std::vector<glm::dvec3>& face) {
-    glm::dvec3 sum(0);
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-        sum += glm::cross(face[i] - face[0], face[i + 1] - face[0]);
-    }
-    return sum;
-}
 
 // The turn at corner `at` does not go against the normal.
 bool turnsInward(const std::vector<glm::dvec3>& face, std::size_t at, glm::dvec3 normal) {
@@ -28,8 +20,7 @@ bool turnsInward(const std::vector<glm::dvec3>& face, std::size_t at, glm::dvec3
     return glm::dot(turn, normal) >= 0;
 }
 
-}  // namespace
-
+// Whether the triangle could be joined to the face.
 bool joinTriangle(std::vector<glm::dvec3>& face, const std::array<glm::dvec3, 3>& triangle) {
     const glm::dvec3 sum = areaVector(face);
     const double size = glm::length(sum);
@@ -61,6 +52,47 @@ bool joinTriangle(std::vector<glm::dvec3>& face, const std::array<glm::dvec3, 3>
         }
     }
     return false;
+}
+
+}  // namespace
+
+glm::dvec3 areaVector(std::span<const glm::dvec3> face) {
+    glm::dvec3 sum(0);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+        sum += glm::cross(face[i] - face[0], face[i + 1] - face[0]);
+    }
+    return sum;
+}
+
+ConvexFaces::ConvexFaces(const FlatScene& scene) {
+    std::vector<glm::dvec3> face;
+    const auto close = [&] {
+        corners_.insert(corners_.end(), face.begin(), face.end());
+        if (!face.empty()) {
+            first_.push_back(std::uint32_t(corners_.size()));
+        }
+    };
+    for (const Triangle& triangle : scene.triangles) {
+        std::array<glm::dvec3, 3> corner;
+        for (int i = 0; i < 3; ++i) {
+            corner[std::size_t(i)] = glm::dvec3(scene.positions[triangle.vertex[i]]);
+        }
+        if (!joinTriangle(face, corner)) {
+            close();
+            face.assign(corner.begin(), corner.end());
+        }
+    }
+    close();
+}
+
+std::vector<Bounds> ConvexFaces::bounds() const {
+    std::vector<Bounds> bounds(size());
+    for (std::uint32_t i = 0; i < bounds.size(); ++i) {
+        for (const glm::dvec3 corner : face(i)) {
+            bounds[i].add(corner);
+        }
+    }
+    return bounds;
 }
 
 }  // namespace nightcity
