@@ -210,22 +210,9 @@ def _chart(commands: argparse._SubParsersAction) -> None:
 
 
 def _bench(commands: argparse._SubParsersAction) -> None:
-    command = commands.add_parser("bench", help="tables of time, memory and size")
-    command.add_argument(
-        "--town", type=Path, action="append", default=[], help="a CityJSON file to measure as well"
-    )
-    command.add_argument(
-        "--preset",
-        action="append",
-        help="a generator preset (default: paper-4x4 and city-100x100)",
-    )
+    from nightcity.bench.command import add_arguments
 
-    def run(options: argparse.Namespace) -> None:
-        from nightcity.bench import bench
-
-        bench(options.preset or ["paper-4x4", "city-100x100"], options.town)
-
-    command.set_defaults(run=run)
+    add_arguments(commands.add_parser("bench", help="tables of time, memory, size and accuracy"))
 
 
 def _list_files(paths: list[Path]) -> None:

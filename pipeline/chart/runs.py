@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -59,19 +60,54 @@ def time_frames(
     )
 
 
+@dataclass(frozen=True)
+class PixelTable:
+    """Pixels (N, 2), their glow (N, 3), W m^-2 sr^-1, the surfaces seen through the haze (N, 3)
+    and, of Monte Carlo, the standard error of the glow (N, 3)."""
+
+    pixels: NDArray[np.int64]
+    glow: NDArray[np.float64]
+    surface: NDArray[np.float64]
+    glow_error: NDArray[np.float64] | None
+
+    @staticmethod
+    def joined(tables: Sequence[PixelTable]) -> PixelTable:
+        """One after the other; all of the same method, at least one."""
+        errors = [table.glow_error for table in tables if table.glow_error is not None]
+        return PixelTable(
+            np.concatenate([table.pixels for table in tables]),
+            np.concatenate([table.glow for table in tables]),
+            np.concatenate([table.surface for table in tables]),
+            np.concatenate(errors) if errors else None,
+        )
+
+
+def read_pixels(table: Path) -> PixelTable:
+    """A table that nightcity-render wrote for --pixels, with all its channels."""
+    with table.open(newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    if not rows:
+        raise SceneError(f"{table}: holds no pixel")
+
+    def channels(name: str) -> NDArray[np.float64]:
+        return np.array([[float(row[f"{name}.{c}"]) for c in "RGB"] for row in rows])
+
+    return PixelTable(
+        np.array([[int(row["x"]), int(row["y"])] for row in rows]),
+        channels("glow"),
+        channels("surface"),
+        channels("glowError") if "glowError.R" in rows[0] else None,
+    )
+
+
 def render_pixels(
     scene: Path, view: list[str], setting: Setting, pixels: str, folder: Path
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Pixels (N, 2) and their glow (N, 3). ``pixels``: a count to choose, or a file of ``x,y``."""
     table = folder / "pixels.csv"
     run_renderer([scene, *view, *setting.options, "--pixels", pixels, "--quiet", "-o", table])
-    with table.open(newline="") as lines:
-        rows = list(csv.DictReader(lines))
-    if not rows:
-        raise SceneError(f"{scene}: no pixel of this view sees a medium; choose another camera")
-    where = np.array([[int(row["x"]), int(row["y"])] for row in rows])
-    glow = np.array([[float(row[f"glow.{c}"]) for c in "RGB"] for row in rows])
-    return where, glow
+    measured = read_pixels(table)
+    return measured.pixels, measured.glow
 
 
 def write_pixels(pixels: NDArray[np.int64], path: Path) -> Path:

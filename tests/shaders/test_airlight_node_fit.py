@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Nightcity authors
 # SPDX-License-Identifier: Apache-2.0
 """The fitted node counts are what their generator writes."""
+
 from __future__ import annotations
 
 import re
@@ -15,7 +16,9 @@ NUMBER = re.compile(r"-?\d+\.\d{5}(?=f)")
 def test_fit_is_up_to_date() -> None:
     written = subprocess.run(
         [sys.executable, FOLDER / "fit_airlight_nodes.py"],
-        check=True, capture_output=True, text=True,
+        check=True,
+        capture_output=True,
+        text=True,
     ).stdout
     kept = (FOLDER / "airlight_node_fit.h").read_text()
     assert NUMBER.sub("", written) == NUMBER.sub("", kept), "run fit_airlight_nodes.py again"

@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""``nightcity bench accuracy``: every method against the judge, on pixels chosen at random.
+
+The errors are numerical (design section 5): the judge computes the same model. What has a
+tolerance is held against it; Monte Carlo is held against its own standard error.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nightcity.bench.judge import Keeper, View, choose_pixels, measure, say
+from nightcity.bench.scenes import MeasuredScene, open_scene, open_town
+from nightcity.chart.agreement import agreement
+from nightcity.chart.errors import ErrorStatistics, error_statistics
+from nightcity.chart.runs import PixelTable
+from nightcity.errors import UsageError
+
+METHODS = ("gauss", "field", "reference", "path")  # with a tolerance, and Monte Carlo
+EMITTERS = ("isotropic", "lambertian", "pane")
+PIXELS_FOR_P99 = 1000
+_GREEN = 1  # the channels of a window rise and fall together: one of them tells of the noise
+_HEADER = (
+    "| scene | camera | windows | method | pixels | bias | median | p95 | p99 | max "
+    "| relative RMSE | verdict |\n|---|---|---|---|---|---|---|---|---|---|---|---|"
+)
+
+
+@dataclass(frozen=True)
+class AccuracyOptions:
+    """What is compared. tolerances: largest relative error allowed, each in (0, 1]."""
+
+    methods: Sequence[str]
+    tolerances: Sequence[float]
+    emitters: Sequence[str]
+    cameras: Sequence[str] | None  # none: the usual ones of each scene
+    lights: str
+    visibility: str
+    size: str
+    pixels: int
+    town_pixels: int
+    samples: int
+    judge_tolerance: float | None  # none: as auto_judge_tolerance has it
+    kept: Path | None  # where the judge's results stay; none: nowhere
+
+    def __post_init__(self) -> None:
+        if self.pixels < 1 or self.town_pixels < 1:
+            raise UsageError("--pixels and --town-pixels: give at least 1")
+        if not all(0 < tolerance <= 1 for tolerance in self.tolerances):
+            raise UsageError("--tolerances must lie above 0 and at most at 1")
+
+    def auto_judge_tolerance(self) -> float:
+        """What the judge is asked for: it converges to a tenth of that by itself.
+
+        A ``reference`` that is under test itself gets a judge ten times as strict.
+        """
+        smallest = min(self.tolerances)
+        return smallest / 10 if "reference" in self.methods else smallest
+
+
+@dataclass(frozen=True)
+class Line:
+    """A method at one setting; ``tolerance`` is None for Monte Carlo."""
+
+    method: str
+    name: str
+    options: tuple[str, ...]
+    tolerance: float | None
+
+
+def accuracy(sources: Sequence[str], towns: Sequence[Path], options: AccuracyOptions) -> int:
+    """Print the table; returns 1 where a line misses its bar, else 0."""
+    rows = missed = 0
+    with tempfile.TemporaryDirectory() as name:
+        work = Path(name)
+        scenes = [(open_scene(source, work), options.pixels) for source in sources]
+        scenes += [(open_town(town, work), options.town_pixels) for town in towns]
+        cameras = [scene.choose_cameras(options.cameras) for scene, _ in scenes]
+        print(_HEADER, flush=True)
+        for (scene, count), names in zip(scenes, cameras, strict=True):
+            for row, good in _compare_scene(scene, names, count, options, work):
+                print(row, flush=True)
+                rows += 1
+                missed += not good
+    print(f"\n{rows - missed} of {rows} lines meet their bar")
+    return 1 if missed else 0
+
+
+def _compare_scene(
+    scene: MeasuredScene, cameras: list[str], count: int, options: AccuracyOptions, work: Path
+) -> Iterator[tuple[str, bool]]:
+    keeper = Keeper(options.kept or work / "judged")
+    for camera in cameras:
+        view = View(scene, camera, options.size)
+        pixels = choose_pixels(view, count, work)
+        for emitter in options.emitters:
+            model = ["--lights", options.lights, "--visibility", options.visibility]
+            model += ["--emitter", emitter]
+            # The methods first: what does not work is said before the judge takes minutes.
+            measured = []
+            for line in _lines(options):
+                say(f"{view}: {emitter}, {line.name}")
+                measured.append((line, measure(view, pixels, [*model, *line.options], work)))
+            tolerance = options.judge_tolerance or options.auto_judge_tolerance()
+            judge = [*model, "--method", "reference", "--tolerance", f"{tolerance:g}"]
+            truth = keeper.measure(view, pixels, judge, work)
+            for line, found in measured:
+                cells, good = compare(line, found, truth.glow)
+                head = f"| {scene.name} | {camera} | {emitter} | {line.name} |"
+                yield f"{head} {' | '.join(cells)} |", good
+
+
+def _lines(options: AccuracyOptions) -> list[Line]:
+    lines = []
+    for method in options.methods:
+        if method == "path":
+            samples = str(options.samples)
+            taken = ("--method", "path", "--samples", samples)
+            lines.append(Line(method, f"path, {samples} samples", taken, None))
+            continue
+        for tolerance in options.tolerances:
+            taken = ("--method", method, "--tolerance", f"{tolerance:g}")
+            lines.append(Line(method, f"{method} {tolerance:g}", taken, tolerance))
+    return lines
+
+
+def compare(line: Line, found: PixelTable, truth: NDArray[np.float64]) -> tuple[list[str], bool]:
+    """The cells after the method's name, and whether the line meets its bar."""
+    errors = error_statistics(found.glow, truth)
+    cells = [str(errors.pixels)]
+    cells += [percent(value) for value in (errors.bias, errors.median, errors.p95)]
+    cells += [percent(errors.p99) if errors.pixels >= PIXELS_FOR_P99 else ""]
+    cells += [percent(errors.max), percent(errors.relative_rmse)]
+    verdict, good = _verdict(line, errors, found, truth)
+    return [*cells, verdict], good
+
+
+def _verdict(
+    line: Line, errors: ErrorStatistics, found: PixelTable, truth: NDArray[np.float64]
+) -> tuple[str, bool]:
+    if not truth.any():
+        return "no glow: nothing to judge", False
+    if line.tolerance is not None:
+        name, worst = ("p95", errors.p95)
+        if errors.pixels >= PIXELS_FOR_P99:
+            name, worst = ("p99", errors.p99)
+        good = worst <= line.tolerance
+        relation = "within" if good else "MISSES"
+        return f"{name} {relation} {percent(line.tolerance)}", good
+    assert found.glow_error is not None  # Monte Carlo always states it
+    agreed = agreement(found.glow[:, _GREEN], found.glow_error[:, _GREEN], truth[:, _GREEN])
+    figures = (
+        f"mean ratio {agreed.ratio:.5f} ± {agreed.ratio_error:.5f}, "
+        f"worst pixel {agreed.worst:.2f} of {agreed.bound:.2f} sigma"
+    )
+    faults = agreed.faults
+    return (f"DISAGREES ({'; '.join(faults)}): " if faults else "agrees: ") + figures, not faults
+
+
+def percent(share: float) -> str:
+    """A share as percent, with two significant digits below 10 %."""
+    value = 100 * share
+    return f"{value:.1f} %" if abs(value) >= 10 else f"{value:.2g} %"

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""The options of ``nightcity bench`` and of its tables."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from nightcity.errors import UsageError
+
+
+def add_arguments(command: argparse.ArgumentParser) -> None:
+    """The plain command, and one sub-command for each table."""
+    command.add_argument(
+        "--town", type=Path, action="append", default=[], help="a CityJSON file to measure as well"
+    )
+    command.add_argument(
+        "--preset",
+        action="append",
+        help="a generator preset (default: paper-4x4 and city-100x100)",
+    )
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.bench.steps import bench
+
+        bench(options.preset or ["paper-4x4", "city-100x100"], options.town)
+
+    command.set_defaults(run=run)
+    tables = command.add_subparsers(
+        dest="table",
+        metavar="TABLE",
+        help="without one: time, memory and size of every step, and the rates of the march",
+    )
+    for add in (_accuracy,):
+        add(tables)
+
+
+def _accuracy(tables: argparse._SubParsersAction) -> None:
+    table = tables.add_parser(
+        "accuracy",
+        help="every method against the judge, at pixels chosen at random",
+        description="Exit code 1 where a line misses its bar: p99 within the tolerance (p95 "
+        "below 1,000 pixels); of path, means within three standard errors, no pixel beyond "
+        "Sidak's bound, standard error of the mean at most 0.5 %%.",
+    )
+    _add_scenes(table, "paper-4x4 and mixed-6x6, where no town is named either")
+    table.add_argument("--methods", type=_names, default=["path"], metavar="NAMES")
+    table.add_argument("--tolerances", type=_numbers, default=[0.01, 0.001], metavar="T,...")
+    table.add_argument(
+        "--emitters", type=_names, default=["isotropic", "lambertian", "pane"], metavar="NAMES"
+    )
+    table.add_argument("--lights", default="all", choices=("listed", "all"))
+    table.add_argument("--visibility", default="full", choices=("none", "full"))
+    table.add_argument("--pixels", type=int, default=2000, help="of generated cities (%(default)s)")
+    table.add_argument("--town-pixels", type=int, default=300, help="of towns (%(default)s)")
+    table.add_argument(
+        "--samples", type=int, default=16384, help="paths a pixel of path (%(default)s)"
+    )
+    table.add_argument(
+        "--judge-tolerance",
+        type=_judge_tolerance,
+        metavar="auto|T",
+        help="of the judge, which converges to a tenth of it; auto (default): the smallest of "
+        "--tolerances, a tenth of it where the methods hold reference itself",
+    )
+
+    def run(options: argparse.Namespace) -> int:
+        from nightcity.bench.accuracy import METHODS, AccuracyOptions, accuracy
+
+        _check("--methods", options.methods, METHODS)
+        _check("--emitters", options.emitters, ("isotropic", "lambertian", "pane"))
+        chosen = AccuracyOptions(
+            options.methods,
+            options.tolerances,
+            options.emitters,
+            options.cameras,
+            options.lights,
+            options.visibility,
+            options.size,
+            options.pixels,
+            options.town_pixels,
+            options.samples,
+            options.judge_tolerance,
+            options.judged,
+        )
+        usual = [] if options.town else ["paper-4x4", "mixed-6x6"]
+        return accuracy(options.scene or usual, options.town, chosen)
+
+    table.set_defaults(run=run)
+
+
+def _add_scenes(table: argparse.ArgumentParser, usual: str) -> None:
+    table.add_argument(
+        "scene",
+        nargs="*",
+        metavar="SCENE",
+        help=f"presets, stages or folders of flat scenes (default: {usual})",
+    )
+    table.add_argument("--town", type=Path, action="append", default=[], help="a CityJSON file")
+    table.add_argument(
+        "--cameras", type=_names, metavar="NAMES", help="(default: overview75,street,far25)"
+    )
+    table.add_argument("--size", default="1920x1061", metavar="WIDTHxHEIGHT")
+    table.add_argument(
+        "--judged",
+        type=Path,
+        metavar="FOLDER",
+        help="keep the judge's results here, and take those that are there (default: not kept)",
+    )
+
+
+def _names(text: str) -> list[str]:
+    return [name for name in text.split(",") if name]
+
+
+def _numbers(text: str) -> list[float]:
+    return [_number(part) for part in text.split(",")]
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number") from None
+
+
+def _judge_tolerance(text: str) -> float | None:
+    return None if text == "auto" else _number(text)
+
+
+def _check(option: str, names: list[str], known: tuple[str, ...]) -> None:
+    unknown = [name for name in names if name not in known]
+    if unknown or not names:
+        raise UsageError(f"{option} {','.join(names)}: there are {', '.join(known)}")
