@@ -30,7 +30,7 @@ public:
     void addTo(std::vector<int>& frames) {
         const std::int64_t first = number();
         const std::int64_t last = take('-') ? number() : first;
-        const std::int64_t step = last != first && take('x') ? number() : 1;
+        const std::int64_t step = last != first && (take('x') || take(':')) ? number() : 1;
         if (next_ != end_) {
             failFrames(text_, "'" + part_ + "' is no range of frames");
         }

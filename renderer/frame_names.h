@@ -10,7 +10,8 @@
 
 namespace nightcity {
 
-// "1-10x2,20": frames 1, 3, 5, 7, 9 and 20, ascending, each once. Throws UsageError.
+// "1-10x2,20": frames 1, 3, 5, 7, 9 and 20, ascending, each once; 1-10:2 is the same, as
+// OpenJobDescription has it. Throws UsageError.
 std::vector<int> parseFrames(const std::string& text);
 
 // Whether the file's name has a place for the frame: #### or %04d.

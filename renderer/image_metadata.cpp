@@ -7,6 +7,7 @@
 #include "choices.h"
 #include "output/channels.h"
 #include "scene/content_hash.h"
+#include "tile.h"
 
 namespace nightcity {
 
@@ -112,7 +113,7 @@ void addImage(const ImageOptions& image, ImageFormat format, Entries& entries) {
 
 ImageMetadata describeImage(const FlatScene& scene, const RenderProduct& product,
                             const RenderSettings& settings, const ImageOptions& image,
-                            ImageFormat format) {
+                            ImageFormat format, std::optional<Tile> tile) {
     const CameraFrame& camera = scene.camera(product.camera).at(product.frame);
     ImageMetadata metadata;
     metadata.entries = {{"version", "nightcity-render " NIGHTCITY_VERSION},
@@ -126,6 +127,9 @@ ImageMetadata describeImage(const FlatScene& scene, const RenderProduct& product
     std::string all;
     for (const auto& [name, value] : metadata.entries) {
         all += name + "=" + value + "\n";
+    }
+    if (tile) {
+        metadata.entries.emplace_back("tile", tileName(*tile));
     }
     metadata.entries.emplace_back("settingsHash", contentHash(all));
     const glm::dmat4 view = worldToCamera(camera, product.cameraOffset);

@@ -12,9 +12,10 @@
 namespace nightcity {
 
 // Versions, scene, camera, frame, every setting, and last "settingsHash", the hash of
-// all of them: equal hashes mean equal images on the same device.
+// all of them: equal hashes mean equal images on the same device. A tile has the hash of
+// its frame, and "tile" before it.
 ImageMetadata describeImage(const FlatScene& scene, const RenderProduct& product,
                             const RenderSettings& settings, const ImageOptions& image,
-                            ImageFormat format);
+                            ImageFormat format, std::optional<Tile> tile = {});
 
 }  // namespace nightcity

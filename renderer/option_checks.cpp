@@ -47,7 +47,10 @@ void checkOutput(const Options& options, const Given& given) {
     require(!display || !given("--aovs"), "--aovs is for .exr and .csv; PNG and JPEG show beauty");
     require(display || !given("--exposure"),
             "--exposure is for .png and .jpg; EXR and CSV keep the radiance");
-    require(!table || !options.skipExisting, "--skip-existing is for images, not for tables");
+    require(!table || !(options.skipExisting || options.listMissing),
+            "--skip-existing and --list-missing are for images, not for tables");
+    require(format == ImageFormat::exr || !options.tile,
+            "--tile is for .exr, which says where in the frame a tile lies");
     checkWritable("-o", options.output);
     if (!options.stats.empty()) {
         checkWritable("--stats", options.stats);

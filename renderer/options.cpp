@@ -101,6 +101,10 @@ void addWhat(CLI::App& app, Options& options) {
            "like 1-10, 1-10x2 or 1,5,20-30 (default: the stage's first)")
         ->type_name("FRAMES");
     app.add_option_function<std::string>(
+           "--tile", [&](const std::string& text) { options.tile = parseTile(text); },
+           "one of N bands of rows, as FRAME.IofN.exr; 'nightcity stitch' joins them")
+        ->type_name("I/N");
+    app.add_option_function<std::string>(
            "--pixels",
            [&](const std::string& text) {
                options.pixelCount = wholeNumber(text);
@@ -209,6 +213,9 @@ void addRun(CLI::App& app, Options& options, bool& quiet) {
         ->type_name("FILE");
     app.add_flag("--skip-existing", options.skipExisting,
                  "keep images that are there, whole and of the same settings");
+    app.add_flag("--list-missing", options.listMissing,
+                 "render nothing: list the images that are not there, or not whole, or of other "
+                 "settings; exit code 1 if there are any");
     addChoice(app, "--progress", options.progress, "how progress is shown");
     app.add_flag("--quiet", quiet, "no progress, no notes");
 }

@@ -12,6 +12,7 @@
 
 #include "render_delegate.h"
 #include "settings.h"
+#include "tile.h"
 
 namespace nightcity {
 
@@ -26,6 +27,7 @@ struct Options {
     RenderSettings settings;
     std::optional<std::uint32_t> pixelCount;            // --pixels N
     std::optional<std::filesystem::path> pixelFile;     // --pixels FILE
+    std::optional<Tile> tile;               // none: the whole frame
     std::uint32_t repeat = 1;
     float exposure = 2;                     // EV: windows are white, glow shows, the ground stays dark
     std::optional<std::vector<std::string>> aovs;  // none: the stage's, else all
@@ -33,6 +35,7 @@ struct Options {
     bool listDevices = false;
     std::filesystem::path stats;            // empty: none
     bool skipExisting = false;
+    bool listMissing = false;               // instead of rendering
     ProgressStyle progress = ProgressStyle::automatic;
 };
 

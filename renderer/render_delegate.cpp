@@ -63,7 +63,7 @@ public:
         const CameraFrame& camera = flatScene_->camera(product.camera).at(product.frame);
         frame_ = {};
         if (product.pixels.empty()) {
-            frame_.resize(product.width, product.height);
+            frame_.resize(product.width, product.rows().count);
         } else {
             frame_.resize(static_cast<std::uint32_t>(product.pixels.size()), 1);
         }
@@ -105,6 +105,11 @@ private:
         if (std::uint64_t{product.width} * product.height > kMostPixels) {
             throw UsageError("--size: a frame has at most " + std::to_string(kMostPixels) +
                              " pixels; render it in tiles");
+        }
+        const RowRange rows = product.rows();
+        if (rows.count == 0 || rows.first >= product.height ||
+            rows.count > product.height - rows.first) {
+            throw std::logic_error("a tile outside its frame");
         }
         if (settings.subdivisions == 0) {
             throw UsageError("--subdivisions must be at least 1");

@@ -3,7 +3,6 @@
 #include "session.h"
 
 #include <algorithm>
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -33,8 +32,11 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 std::string chooseCamera(const FlatScene& scene, const Options& options) {
-    std::string name = options.camera.value_or(scene.defaults.camera);
-    if (!options.camera && name.empty() && !scene.cameras.empty()) {
+    std::string name = options.camera.value_or("");
+    if (name.empty()) {  // a farm's parameter that nobody set
+        name = scene.defaults.camera;
+    }
+    if (name.empty() && !scene.cameras.empty()) {
         name = scene.cameras.front().name;
     }
     return scene.camera(name).name;  // or an error that lists the names
@@ -75,6 +77,10 @@ public:
         prepare();
         const std::vector<int> frames =
             options_.frames.value_or(std::vector<int>{scene_.frames.first});
+        if (options_.listMissing) {
+            listMissing(frames);
+            return;
+        }
         for (const int frame : frames) {
             stopIfAsked();
             renderFrame(frame);
@@ -95,6 +101,10 @@ private:
         product_.width = size.x;
         product_.height = size.y;
         product_.frame = first;
+        if (options_.tile) {
+            product_.tile = tileRows(*options_.tile, size.y);
+            image_.rows = {product_.tile->first, size.y};
+        }
         if (options_.pixelFile) {
             product_.pixels = readPixels(*options_.pixelFile, size);
         } else if (options_.pixelCount) {
@@ -139,15 +149,43 @@ private:
         return known;
     }
 
-    void renderFrame(int frame) {
+    // The image of a frame: where it goes, and what it will say of itself.
+    std::pair<std::filesystem::path, ImageMetadata> imageOf(int frame) {
         product_.frame = frame;
         product_.cameraOffset = glm::vec3(0);
-        const std::filesystem::path file = frameFile(options_.output, frame);
-        const ImageMetadata metadata =
-            describeImage(scene_, product_, options_.settings, image_, format_);
-        if (options_.skipExisting &&
-            isWholeImage(file, metadata.entries.back().first, metadata.entries.back().second,
-                         product_.width, product_.height)) {
+        std::filesystem::path file = frameFile(options_.output, frame);
+        if (options_.tile) {
+            file = tileFile(file, *options_.tile);
+        }
+        return {file, describeImage(scene_, product_, options_.settings, image_, format_,
+                                    options_.tile)};
+    }
+
+    bool isThere(const std::filesystem::path& file, const ImageMetadata& metadata) const {
+        const auto& [name, value] = metadata.entries.back();  // the settings' hash
+        return isWholeImage(file, name, value, product_.width, product_.rows().count, image_.rows);
+    }
+
+    void listMissing(const std::vector<int>& frames) {
+        std::size_t missing = 0;
+        for (const int frame : frames) {
+            stopIfAsked();
+            const auto& [file, metadata] = imageOf(frame);
+            if (!isThere(file, metadata)) {
+                std::cout << "missing " << file.string() << std::endl;
+                ++missing;
+            }
+        }
+        if (missing > 0) {
+            throw std::runtime_error(std::to_string(missing) + " of " +
+                                     std::to_string(frames.size()) +
+                                     " images are missing, not whole or of other settings");
+        }
+    }
+
+    void renderFrame(int frame) {
+        const auto& [file, metadata] = imageOf(frame);
+        if (options_.skipExisting && isThere(file, metadata)) {
             progress_.line("kept " + file.string());
             return;
         }

@@ -68,6 +68,12 @@ struct RenderSettings {
     std::uint64_t seed = 0;
 };
 
+// Rows of a frame, from the top.
+struct RowRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
 // One image: where from, how large, which pixels.
 struct RenderProduct {
     std::string camera;
@@ -76,6 +82,9 @@ struct RenderProduct {
     std::uint32_t width = 1920;
     std::uint32_t height = 1061;
     std::vector<glm::uvec2> pixels;  // only these, in this order; empty: all
+    std::optional<RowRange> tile;    // without a pixel list: only these rows, at least one
+
+    RowRange rows() const { return tile.value_or(RowRange{0, height}); }
 };
 
 }  // namespace nightcity

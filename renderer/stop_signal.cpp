@@ -23,6 +23,7 @@ void watchStopSignals() {
     action.sa_flags = SA_RESTART;
     sigaction(SIGTERM, &action, nullptr);
     sigaction(SIGINT, &action, nullptr);
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void stopIfAsked() {

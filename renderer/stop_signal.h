@@ -9,7 +9,8 @@ struct Stopped {
     int signal;
 };
 
-// From now on TERM and INT are noted instead of ending the process at once.
+// From now on TERM and INT are noted instead of ending the process at once, and a file that
+// grows past the process's limit is an error of the write, not the end of the process.
 void watchStopSignals();
 
 // Throws Stopped once one has come.

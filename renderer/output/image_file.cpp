@@ -69,6 +69,10 @@ void writeExr(const std::filesystem::path& file, const Frame& frame, const Image
     const std::vector<Channel> channels = selectChannels(options.aovs);
     OIIO::ImageSpec spec(int(frame.width), int(frame.height), int(channels.size()),
                          OIIO::TypeDesc::FLOAT);
+    if (options.rows.imageHeight > 0) {  // data window within the display window
+        spec.y = int(options.rows.first);
+        spec.full_height = int(options.rows.imageHeight);
+    }
     spec.channelnames.clear();
     spec.alpha_channel = spec.z_channel = -1;
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -111,7 +115,7 @@ void writeCsv(const std::filesystem::path& file, const Frame& frame, const Image
     const std::vector<Channel> channels = selectChannels(options.aovs);
     std::string text = "x,y";
     for (const Channel& channel : channels) {
-        text += "," + std::string(channel.name);
+        text.append(",").append(channel.name);
     }
     text += "\n";
     for (std::size_t i = 0; i < frame.beauty.size(); ++i) {
@@ -179,7 +183,8 @@ void writeImage(const std::filesystem::path& file, const Frame& frame,
 }
 
 bool isWholeImage(const std::filesystem::path& file, const std::string& name,
-                  const std::string& value, std::uint32_t width, std::uint32_t height) {
+                  const std::string& value, std::uint32_t width, std::uint32_t height,
+                  const ImageRows& rows) {
     const ImageFormat format = imageFormat(file);
     if (format == ImageFormat::csv || !std::filesystem::is_regular_file(file) ||
         !hasItsEnd(file, format)) {
@@ -195,7 +200,10 @@ bool isWholeImage(const std::filesystem::path& file, const std::string& name,
     const std::string line = entry + "=" + value + "\n";
     const bool same = spec.get_string_attribute(entry) == value ||
                       spec.get_string_attribute("ImageDescription").find(line) != std::string::npos;
-    if (!same || spec.width != int(width) || spec.height != int(height)) {
+    const std::uint32_t imageHeight = rows.imageHeight > 0 ? rows.imageHeight : height;
+    const bool placed = spec.width == int(width) && spec.height == int(height) &&
+                        spec.y == int(rows.first) && spec.full_height == int(imageHeight);
+    if (!same || !placed) {
         return false;
     }
     std::vector<float> pixels(std::size_t{width} * height * std::size_t(spec.nchannels));

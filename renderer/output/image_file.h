@@ -32,10 +32,17 @@ struct ImageMetadata {
     double framesPerSecond = 24;
 };
 
+// Which rows of an image a file holds; only EXR can say so.
+struct ImageRows {
+    std::uint32_t first = 0;
+    std::uint32_t imageHeight = 0;  // 0: the file is the whole image
+};
+
 struct ImageOptions {
     std::vector<std::string> aovs;  // EXR and CSV; empty: all
     float exposure = 0;             // PNG and JPEG: radiance times 2^exposure
     std::vector<glm::uvec2> pixels; // CSV: where the frame's entries lie
+    ImageRows rows;                 // EXR
 };
 
 // Writes the frame whole or not at all. Throws std::runtime_error naming the file,
@@ -43,9 +50,10 @@ struct ImageOptions {
 void writeImage(const std::filesystem::path& file, const Frame& frame,
                 const ImageMetadata& metadata, const ImageOptions& options);
 
-// Whether the file is an image of this size, readable to its last pixel, whose entry
-// `name` is `value`. False for CSV.
+// Whether the file is an image of this size and these rows, readable to its last pixel,
+// whose entry `name` is `value`. False for CSV.
 bool isWholeImage(const std::filesystem::path& file, const std::string& name,
-                  const std::string& value, std::uint32_t width, std::uint32_t height);
+                  const std::string& value, std::uint32_t width, std::uint32_t height,
+                  const ImageRows& rows = {});
 
 }  // namespace nightcity

@@ -59,6 +59,7 @@ struct FrameRenderer::Work {
     const GpuScene& scene;
     const RenderSettings& settings;
     std::vector<vec2> samples;
+    std::uint64_t firstPixel = 0;  // in the order of the frame or the pixel list
     std::uint64_t pixels = 0;
     FrameCost cost;
 };
@@ -69,10 +70,11 @@ FrameRenderer::FrameRenderer(gpu::Device& device, gpu::Commands& commands)
 FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera,
                                 const RenderProduct& product, const RenderSettings& settings,
                                 const std::function<void(double)>& progress, Frame& frame) {
-    Work work{scene, settings, samplePositions(settings), 0, {}};
-    work.pixels = product.pixels.empty()
-                      ? std::uint64_t{product.width} * product.height
-                      : product.pixels.size();
+    Work work{scene, settings, samplePositions(settings), 0, product.pixels.size(), {}};
+    if (product.pixels.empty()) {
+        work.firstPixel = std::uint64_t{product.width} * product.rows().first;
+        work.pixels = std::uint64_t{product.width} * product.rows().count;
+    }
     preparePipelines(scene, settings);
     prepareBand(work, camera, product);
 
@@ -80,7 +82,7 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
     push.scene = addressWords(scene.tableAddress());
     push.frame = addressWords(band_->tableAddress());
     for (std::uint64_t first = 0; first < work.pixels; first += band_->rays()) {
-        push.firstPixel = static_cast<std::uint32_t>(first);
+        push.firstPixel = static_cast<std::uint32_t>(work.firstPixel + first);
         push.pixelCount =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(band_->rays(), work.pixels - first));
         for (std::uint32_t sample = 0; sample < work.samples.size(); ++sample) {

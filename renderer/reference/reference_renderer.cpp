@@ -112,10 +112,10 @@ ReferenceImage renderReference(const FlatScene& scene, const RenderProduct& prod
     const Clock::time_point ready = Clock::now();
     ReferenceImage image;
     const bool listed = !product.pixels.empty();
+    const RowRange rows = product.rows();
     const std::size_t count =
-        listed ? product.pixels.size() : std::size_t{product.width} * product.height;
-    image.frame.resize(listed ? std::uint32_t(count) : product.width,
-                       listed ? 1 : product.height);
+        listed ? product.pixels.size() : std::size_t{product.width} * rows.count;
+    image.frame.resize(listed ? std::uint32_t(count) : product.width, listed ? 1 : rows.count);
     PixelCost cost;
     std::mutex mutex;
     const std::size_t unitPixels = settings.tolerance ? kExactPixels : kMarchedPixels;
@@ -124,7 +124,8 @@ ReferenceImage renderReference(const FlatScene& scene, const RenderProduct& prod
         const std::size_t last = std::min(count, (index + 1) * unitPixels);
         for (std::size_t i = index * unitPixels; i < last; ++i) {
             const glm::uvec2 pixel =
-                listed ? product.pixels[i] : glm::uvec2(i % product.width, i / product.width);
+                listed ? product.pixels[i]
+                       : glm::uvec2(i % product.width, rows.first + i / product.width);
             unitCost.add(renderer.render(pixel, i, image.frame));
         }
         const std::lock_guard lock(mutex);

@@ -113,6 +113,40 @@ TEST_F(Command, ExistingImagesAreKeptWhileTheyFit) {
     EXPECT_NE(text("out.txt").find("wrote " + at("a.01.png")), std::string::npos);
 }
 
+TEST_F(Command, MissingImagesAreListedAndNotRendered) {
+    ASSERT_EQ(run(render("a.##.png", {"--frames", "1:3:2"})), 2);
+    ASSERT_EQ(run(render("a.##.png", {"--frames", "1-3:2"})), 0) << text("error.txt");
+    EXPECT_EQ(run(render("a.##.png", {"--frames", "1-4", "--list-missing"})), 1);
+    EXPECT_EQ(text("out.txt"), "missing " + at("a.02.png") + "\nmissing " + at("a.04.png") + "\n");
+    EXPECT_NE(text("error.txt").find("2 of 4 images"), std::string::npos) << text("error.txt");
+    EXPECT_EQ(run(render("a.##.png", {"--frames", "1,3", "--list-missing"})), 0);
+    EXPECT_EQ(run(render("a.##.png", {"--frames", "1,3", "--list-missing", "--seed", "5"})), 1);
+    EXPECT_FALSE(std::filesystem::exists(at("a.02.png")));
+}
+
+TEST_F(Command, TilesHaveNamesOfTheirOwnAndAreKeptWhileTheyFit) {
+    const std::vector<std::string> tile{"--tile", "2/3", "--skip-existing"};
+    ASSERT_EQ(run(render("a.exr", tile)), 0) << text("error.txt");
+    EXPECT_TRUE(std::filesystem::exists(at("a.2of3.exr")));
+    EXPECT_FALSE(std::filesystem::exists(at("a.exr")));
+    ASSERT_EQ(run(render("a.exr", tile)), 0);
+    EXPECT_EQ(text("out.txt"), "kept " + at("a.2of3.exr") + "\n");
+    EXPECT_EQ(run(render("a.exr", {"--tile", "2/19"})), 2);
+    EXPECT_NE(text("error.txt").find("18 rows"), std::string::npos) << text("error.txt");
+}
+
+TEST_F(Command, AnEmptyCameraIsTheStages) {
+    const auto frame = [&](const char* file) {
+        return std::vector<std::string>{at("city.scene"), "--size", "32x18", "--method", "reference",
+                                        "--subdivisions", "3", "-o", at(file)};
+    };
+    ASSERT_EQ(run(frame("a.exr")), 0) << text("error.txt");
+    std::vector<std::string> empty = frame("b.exr");
+    empty.insert(empty.end(), {"--camera", ""});
+    ASSERT_EQ(run(empty), 0) << text("error.txt");
+    EXPECT_EQ(text("a.exr"), text("b.exr"));
+}
+
 TEST_F(Command, ExitCodes) {
     EXPECT_EQ(run({"--version"}), 0);
     EXPECT_EQ(run({"--nonsense"}), 2);

@@ -86,6 +86,43 @@ TEST(Frame, IsTheSameBytesTwice) {
                     renderOnDevice(scene, product, quick()));
 }
 
+// The rows of a tile, put below each other, are the frame, whatever the method.
+TEST(Frame, TilesAreTheFrameToTheByte) {
+    const FlatScene scene = paperCity(1).load();
+    RenderSettings settings = quick();
+    settings.samples = 4;
+    for (const Method method : {Method::march, Method::path, Method::reference}) {
+        settings.method = method;
+        const auto render = [&](const RenderProduct& product) {
+            return method == Method::reference
+                       ? renderReference(scene, product, settings, {}).frame
+                       : renderOnDevice(scene, product, settings);
+        };
+        RenderProduct product = productOf("street", 32, 18);
+        const Frame whole = render(product);
+        Frame joined;
+        for (std::uint32_t row : {0u, 5u, 6u}) {
+            product.tile = RowRange{row, row == 0 ? 5u : row == 5 ? 1u : 12u};
+            const Frame tile = render(product);
+            ASSERT_EQ(tile.height, product.tile->count);
+            const auto append = [](auto& all, const auto& more) {
+                all.insert(all.end(), more.begin(), more.end());
+            };
+            append(joined.beauty, tile.beauty);
+            append(joined.glow, tile.glow);
+            append(joined.surface, tile.surface);
+            append(joined.transmittance, tile.transmittance);
+            append(joined.depth, tile.depth);
+            append(joined.normal, tile.normal);
+            append(joined.mediaId, tile.mediaId);
+            append(joined.materialId, tile.materialId);
+            append(joined.glowError, tile.glowError);
+        }
+        expectSameBytes(joined, whole);
+        EXPECT_TRUE(sameBytes(joined.glowError, whole.glowError));
+    }
+}
+
 // 640 x 500 pixels are more than a band; a list makes other bands of them.
 TEST(Frame, NeitherBandsNorPixelListsChangeAByte) {
     const FlatScene scene = paperCity(2).load();

@@ -9,7 +9,9 @@
 #include <thread>
 
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 
 #include "errors.h"
@@ -122,6 +124,43 @@ TEST(ImageFile, WholeImagesAreToldFromOthers) {
         std::filesystem::resize_file(file, std::filesystem::file_size(file) * 2 / 3);
         EXPECT_FALSE(isWholeImage(file, "settingsHash", "abc", 200, 100)) << name;
     }
+}
+
+TEST(ImageFile, TilesSayWhereTheyLie) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "a.exr";
+    ImageOptions options;
+    options.rows = {30, 100};
+    writeImage(file, gradient(20, 10), metadata(), options);
+    const OIIO::ImageSpec spec = OIIO::ImageInput::open(file.string())->spec();
+    EXPECT_EQ(spec.y, 30);
+    EXPECT_EQ(spec.height, 10);
+    EXPECT_EQ(spec.full_y, 0);
+    EXPECT_EQ(spec.full_height, 100);
+    EXPECT_EQ(spec.full_width, 20);
+    EXPECT_TRUE(isWholeImage(file, "settingsHash", "abc", 20, 10, options.rows));
+    EXPECT_FALSE(isWholeImage(file, "settingsHash", "abc", 20, 10, {20, 100}));
+    EXPECT_FALSE(isWholeImage(file, "settingsHash", "abc", 20, 10, {30, 90}));
+    EXPECT_FALSE(isWholeImage(file, "settingsHash", "abc", 20, 10));
+}
+
+// A writer that was killed leaves its file without a lock, a living one holds it.
+TEST(ImageFile, WhatKilledWritersLeftIsRemoved) {
+    const TemporaryFolder folder;
+    const auto left = folder.path() / ".a.csv.999999999.part";
+    const auto living = folder.path() / ".a.csv.999999998.part";
+    const auto other = folder.path() / ".ab.csv.999999999.part";
+    for (const auto& file : {left, living, other}) {
+        std::ofstream(file) << "half";
+    }
+    const int lock = ::open(living.c_str(), O_RDONLY);
+    ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+    writeImage(folder.path() / "a.csv", gradient(2, 2), metadata(), {});
+    ::close(lock);
+    EXPECT_FALSE(std::filesystem::exists(left));
+    EXPECT_TRUE(std::filesystem::exists(living));
+    EXPECT_TRUE(std::filesystem::exists(other));
+    EXPECT_EQ(filesIn(folder.path()), 3u);
 }
 
 TEST(ImageFile, CsvHasOneLineAPixelWithNineDigits) {
