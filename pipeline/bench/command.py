@@ -32,7 +32,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         metavar="TABLE",
         help="without one: time, memory and size of every step, and the rates of the march",
     )
-    for add in (_accuracy,):
+    for add in (_accuracy, _ladder):
         add(tables)
 
 
@@ -45,6 +45,7 @@ def _accuracy(tables: argparse._SubParsersAction) -> None:
         "Sidak's bound, standard error of the mean at most 0.5 %%.",
     )
     _add_scenes(table, "paper-4x4 and mixed-6x6, where no town is named either")
+    _add_views(table)
     table.add_argument("--methods", type=_names, default=["path"], metavar="NAMES")
     table.add_argument("--tolerances", type=_numbers, default=[0.01, 0.001], metavar="T,...")
     table.add_argument(
@@ -90,6 +91,50 @@ def _accuracy(tables: argparse._SubParsersAction) -> None:
     table.set_defaults(run=run)
 
 
+def _ladder(tables: argparse._SubParsersAction) -> None:
+    table = tables.add_parser(
+        "ladder",
+        help="what each physical term changes, against the richest model and one switch at a time",
+        description="Centre: both models at the pixel's centre. Integrated: both as means over 64 "
+        "places of the pixel.",
+    )
+    table.add_argument(
+        "scene", nargs="?", default="paper-4x4", metavar="SCENE", help="(default: %(default)s)"
+    )
+    table.add_argument(
+        "--extinctions",
+        type=_numbers,
+        metavar="E,...",
+        help="of a preset's haze, 1/m (default: 0.001 to 0.1 in five steps for a preset)",
+    )
+    table.add_argument("--pixels", type=int, default=200, help="(default: %(default)s)")
+    table.add_argument(
+        "--integrated-pixels", type=int, default=50, help="(default: %(default)s; 0: none)"
+    )
+    table.add_argument(
+        "--samples", type=int, default=16384, help="paths a pixel (default: %(default)s)"
+    )
+    _add_views(table)
+
+    def run(options: argparse.Namespace) -> int:
+        from nightcity.bench.ladder import EXTINCTIONS, LadderOptions, ladder
+        from nightcity.city.parameters import preset_names
+
+        sweep = EXTINCTIONS if options.scene in preset_names() else None
+        chosen = LadderOptions(
+            options.cameras,
+            options.extinctions or sweep,
+            options.size,
+            options.pixels,
+            options.integrated_pixels,
+            options.samples,
+            options.judged,
+        )
+        return ladder(options.scene, chosen)
+
+    table.set_defaults(run=run)
+
+
 def _add_scenes(table: argparse.ArgumentParser, usual: str) -> None:
     table.add_argument(
         "scene",
@@ -98,6 +143,9 @@ def _add_scenes(table: argparse.ArgumentParser, usual: str) -> None:
         help=f"presets, stages or folders of flat scenes (default: {usual})",
     )
     table.add_argument("--town", type=Path, action="append", default=[], help="a CityJSON file")
+
+
+def _add_views(table: argparse.ArgumentParser) -> None:
     table.add_argument(
         "--cameras", type=_names, metavar="NAMES", help="(default: overview75,street,far25)"
     )
