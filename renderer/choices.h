@@ -41,6 +41,7 @@ NIGHTCITY_CHOICES(MarchOrder, {"steps", MarchOrder::steps}, {"lights", MarchOrde
 NIGHTCITY_CHOICES(LightStorage, {"uniform", LightStorage::uniform},
                   {"storage", LightStorage::storage})
 NIGHTCITY_CHOICES(Filter, {"box", Filter::box}, {"gauss", Filter::gauss})
+NIGHTCITY_CHOICES(Primary, {"raster", Primary::raster}, {"rays", Primary::rays})
 NIGHTCITY_CHOICES(ProgressStyle, {"auto", ProgressStyle::automatic},
                   {"tty", ProgressStyle::terminal}, {"lines", ProgressStyle::lines},
                   {"none", ProgressStyle::none})

@@ -79,6 +79,7 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
          {"lightCap", settings.lightCap ? std::to_string(*settings.lightCap) : "none"},
          {"pixelSamples", std::to_string(settings.pixelSamples)},
          {"filter", choiceName(settings.filter)},
+         {"primary", choiceName(settings.primary)},
          {"seed", std::to_string(settings.seed)}});
     if (settings.method == Method::path) {
         const Orders& orders = settings.orders;

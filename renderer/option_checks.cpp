@@ -124,7 +124,7 @@ void checkMethod(const Options& options, const Given& given) {
     if (settings.method == Method::march) {
         return;
     }
-    for (const char* name : {"--march-order", "--light-storage", "--device", "--validation"}) {
+    for (const char* name : {"--march-order", "--light-storage", "--primary", "--device", "--validation"}) {
         require(!given(name), std::string(name) + " is for --method march; the reference runs on the CPU");
     }
 }

@@ -193,6 +193,8 @@ void addMethod(CLI::App& app, Options& options) {
                    "of the phase function of Henyey and Greenstein, -0.99 to 0.99; 0: isotropic")
         ->type_name("G");
     addChoice(app, "--light-storage", settings.lightStorage, "buffers of the light lists");
+    addChoice(app, "--primary", settings.primary,
+              "how the device finds what the camera sees; raster where it can, else rays");
     addCount(app, "--pixel-samples", settings.pixelSamples, "rays a pixel");
     addChoice(app, "--filter", settings.filter, "where in the pixel they lie");
     app.add_option("--seed", settings.seed, "shifts whatever is random")->capture_default_str();

@@ -33,6 +33,10 @@ public:
             deviceNotes_.push_back(device_.name() +
                                    " has no timestamps: passes are not timed one by one");
         }
+        for (const std::string& lack : device_.missingForRaster()) {
+            deviceNotes_.push_back(device_.name() + " lacks " + lack +
+                                   ": what the camera sees is found by ray queries");
+        }
         instance_.throwIfMessages();
     }
 

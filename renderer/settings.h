@@ -30,6 +30,11 @@ enum class Method {
 enum class MarchOrder { steps, lights };        // which loop is outside
 enum class LightStorage { uniform, storage };   // where the light lists live
 enum class Filter { box, gauss };
+// How the triangles that the camera sees are found on the device.
+enum class Primary {
+    raster,  // where device, scene and frame allow, else as rays
+    rays,    // ray queries
+};
 
 struct Model {
     Lights lights = Lights::listed;
@@ -63,6 +68,7 @@ struct RenderSettings {
     Orders orders;                           // within those of model.scattering
     float anisotropy = 0;                    // g of Henyey and Greenstein, within (-1, 1)
     bool media = true;                       // off: the surface frame
+    Primary primary = Primary::raster;
     std::uint32_t pixelSamples = 1;
     Filter filter = Filter::box;             // with 1 sample: the pixel centre
     std::uint64_t seed = 0;

@@ -31,13 +31,18 @@ uvec2 pixelOf(uint index) {
     return uvec2(index - row * width, row);
 }
 
+// Of a sample from its pixel's centre, right and up, in frame half heights times the height.
+vec2 sampleOffset(uint sampleIndex) {
+    return vec2(2.0, -2.0) * Vec2Array(frameTable.samples).at[sampleIndex];
+}
+
 // The sample's position, as frame half heights from the frame's centre, right
 // and up, times the frame's height: a half-integer and an integer, exact but
 // for the offset.
 void frameCoordinates(uvec2 pixel, uint sampleIndex, out vec2 centre, out vec2 offset) {
     centre = vec2(2.0 * float(pixel.x) + 1.0 - float(frameTable.width),
                   float(frameTable.height) - 2.0 * float(pixel.y) - 1.0);
-    offset = vec2(2.0, -2.0) * Vec2Array(frameTable.samples).at[sampleIndex];
+    offset = sampleOffset(sampleIndex);
 }
 
 Ray cameraRay(uvec2 pixel, uint sampleIndex) {

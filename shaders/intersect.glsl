@@ -11,32 +11,30 @@
 #include "box_interval.glsl"
 #include "camera_ray.glsl"
 #include "pane.glsl"
+#include "triangle_hit.glsl"
 
 layout(set = 0, binding = NIGHTCITY_BINDING_STRUCTURE) uniform accelerationStructureEXT structure;
 
 const float kFar = 1e10;  // m, beyond every surface; frame.h's kSkyDepth
 
-struct TriangleHit {
-    float depth;        // the end asked for, for none
-    uint triangle;      // or kNone
-    vec2 barycentrics;  // of the second and third corner
-};
-
 // The nearest triangle on [0, end) of a ray.
 TriangleHit nearestTriangle(Ray ray, float end) {
-    TriangleHit hit = TriangleHit(end, kNone, vec2(0.0));
+    TriangleHit none = TriangleHit(end, kNone, vec2(0.0), vec3(0.0));
     if ((sceneTable.surfaceMask & kMaskTriangles) == 0u) {
-        return hit;
+        return none;
     }
     rayQueryEXT query;
     rayQueryInitializeEXT(query, structure, gl_RayFlagsOpaqueEXT, kMaskTriangles, ray.origin, 0.0,
                           ray.direction, end);
     while (rayQueryProceedEXT(query)) {
     }
-    if (rayQueryGetIntersectionTypeEXT(query, true) ==
+    if (rayQueryGetIntersectionTypeEXT(query, true) !=
         gl_RayQueryCommittedIntersectionTriangleEXT) {
+        return none;
+    }
+    TriangleHit hit = planeHit(ray, rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
+    if (!inside(hit)) {  // on an edge, or seen edge on: as the device has it
         hit.depth = rayQueryGetIntersectionTEXT(query, true);
-        hit.triangle = rayQueryGetIntersectionPrimitiveIndexEXT(query, true);
         hit.barycentrics = rayQueryGetIntersectionBarycentricsEXT(query, true);
     }
     return hit;

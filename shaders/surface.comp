@@ -15,6 +15,7 @@ void main() {
     if (index >= push.pixelCount) {
         return;
     }
-    Ray ray = cameraRay(pixelOf(push.firstPixel + index), push.sampleIndex);
-    SurfaceRecordArray(frameTable.surfaces).at[index] = nearestSurface(ray);
+    uvec2 pixel = pixelOf(push.firstPixel + index);
+    Ray ray = cameraRay(pixel, push.sampleIndex);
+    SurfaceRecordArray(frameTable.surfaces).at[index] = seenSurface(pixel, ray);
 }

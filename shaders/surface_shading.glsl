@@ -107,12 +107,9 @@ SurfaceRecord shadeTriangle(Ray ray, TriangleHit hit) {
         }
     }
     Triangle triangle = TriangleArray(sceneTable.triangles).at[hit.triangle];
-    Vec3Array positions = Vec3Array(sceneTable.positions);
-    vec3 corner = positions.at[triangle.vertex.x];
-    vec3 normal = normalize(cross(positions.at[triangle.vertex.y] - corner,
-                                  positions.at[triangle.vertex.z] - corner));
     return SurfaceRecord(dimRadiance(triangle.material, texcoordAt(triangle, hit.barycentrics)),
-                         hit.depth, towardsCamera(normal, ray.direction), hit.triangle);
+                         hit.depth, towardsCamera(normalize(hit.normal), ray.direction),
+                         hit.triangle);
 }
 
 // Where the ray meets the ground plane, or kFar. The expression is that of
@@ -133,10 +130,8 @@ SurfaceRecord shadeGround(Ray ray, float depth) {
                          kGroundPrimitive);
 }
 
-// The nearest opaque surface on a ray, sky where there is none.
-SurfaceRecord nearestSurface(Ray ray) {
-    float ground = groundDepth(ray);
-    TriangleHit hit = nearestTriangle(ray, ground);
+// What a ray sees whose nearest triangle is known.
+SurfaceRecord surfaceOn(Ray ray, float ground, TriangleHit hit) {
     SurfaceRecord record = SurfaceRecord(vec3(0.0), kFar, vec3(0.0), kNone);
     if (hit.triangle != kNone) {
         record = shadeTriangle(ray, hit);
@@ -148,6 +143,34 @@ SurfaceRecord nearestSurface(Ray ray) {
         record = shadePane(ray, loose);
     }
     return record;
+}
+
+// The nearest opaque surface on a ray, sky where there is none.
+SurfaceRecord nearestSurface(Ray ray) {
+    float ground = groundDepth(ray);
+    return surfaceOn(ray, ground, nearestTriangle(ray, ground));
+}
+
+// The nearest opaque surface on the ray of a pixel's sample. Where the frame is rasterised, the
+// triangle found at the pixel is taken if the ray meets it; at some edges, which the raster
+// rounds to a fraction of a pixel, it does not.
+SurfaceRecord seenSurface(uvec2 pixel, Ray ray) {
+    if (frameTable.proposals == uvec2(0)) {
+        return nearestSurface(ray);
+    }
+    float ground = groundDepth(ray);
+    uint proposed = UintArray(frameTable.proposals).at[pixel.y * frameTable.width + pixel.x];
+    TriangleHit hit = TriangleHit(ground, kNone, vec2(0.0), vec3(0.0));
+    if (proposed != kNone) {
+        TriangleHit met = planeHit(ray, proposed);
+        if (!inside(met)) {
+            met = nearestTriangle(ray, ground);
+        }
+        if (met.depth < ground) {
+            hit = met;
+        }
+    }
+    return surfaceOn(ray, ground, hit);
 }
 
 #endif

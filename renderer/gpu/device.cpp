@@ -49,6 +49,7 @@ void Device::createDevice() {
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.features.shaderUniformBufferArrayDynamicIndexing = VK_TRUE;
     features.features.shaderStorageBufferArrayDynamicIndexing = VK_TRUE;
+    features.features.geometryShader = description_.features.geometryShader ? VK_TRUE : VK_FALSE;
     features.pNext = &vulkan12;
 
     const char* extensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
@@ -101,6 +102,9 @@ void Device::queryLimits() {
     limits_.accelerationPrimitives = acceleration.maxPrimitiveCount;
     limits_.scratchAlignment =
         std::max(1u, acceleration.minAccelerationStructureScratchOffsetAlignment);
+    limits_.rasterSide =
+        std::min({all.maxImageDimension2D, all.maxFramebufferWidth, all.maxFramebufferHeight,
+                  all.maxViewportDimensions[0], all.maxViewportDimensions[1]});
     limits_.nanosecondsPerTick = description_.timestampBits > 0 ? all.timestampPeriod : 0;
 }
 

@@ -23,6 +23,7 @@ struct DeviceLimits {
     uint64_t allocationBytes = 0;          // of one allocation
     uint64_t accelerationPrimitives = 0;   // of one bottom-level structure
     uint32_t scratchAlignment = 1;         // bytes
+    uint32_t rasterSide = 0;               // pixels, of frames that can be rasterised
     double nanosecondsPerTick = 0;         // 0: no timestamps
 };
 
@@ -52,6 +53,9 @@ public:
     const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
     // True where the host can write all of the device's own memory (CPU and integrated devices).
     bool unifiedMemory() const { return unifiedMemory_; }
+
+    // What it lacks for RasterPipeline, in words; empty when it can.
+    std::vector<std::string> missingForRaster() const { return description_.missingForRaster(); }
 
     // Shows up in validation messages and debuggers.
     void setName(VkObjectType type, uint64_t object, const std::string& name) const;

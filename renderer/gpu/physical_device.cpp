@@ -79,6 +79,11 @@ DeviceFeatures queryFeatures(VkPhysicalDevice device) {
         all.features.shaderStorageBufferArrayDynamicIndexing == VK_TRUE;
     features.storageArrayNonUniformIndexing =
         vulkan12.shaderStorageBufferArrayNonUniformIndexing == VK_TRUE;
+    features.geometryShader = all.features.geometryShader == VK_TRUE;
+    VkFormatProperties depth{};
+    vkGetPhysicalDeviceFormatProperties(device, VK_FORMAT_D32_SFLOAT, &depth);
+    features.depth32 =
+        (depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
     return features;
 }
 
@@ -87,12 +92,17 @@ void queryQueue(DeviceDescription& description) {
     vkGetPhysicalDeviceQueueFamilyProperties(description.handle, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(description.handle, &count, families.data());
-    for (uint32_t i = 0; i < count; ++i) {
-        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0) {
-            description.features.computeQueue = true;
-            description.queueFamily = i;
-            description.timestampBits = families[i].timestampValidBits;
-            return;
+    for (const VkQueueFlags wanted :
+         {VkQueueFlags{VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT},
+          VkQueueFlags{VK_QUEUE_COMPUTE_BIT}}) {
+        for (uint32_t i = 0; i < count; ++i) {
+            if ((families[i].queueFlags & wanted) == wanted) {
+                description.features.computeQueue = true;
+                description.features.graphicsQueue = (wanted & VK_QUEUE_GRAPHICS_BIT) != 0;
+                description.queueFamily = i;
+                description.timestampBits = families[i].timestampValidBits;
+                return;
+            }
         }
     }
 }
@@ -190,6 +200,20 @@ std::vector<std::string> DeviceDescription::missing() const {
     need(features.storageArrayNonUniformIndexing, "shaderStorageBufferArrayNonUniformIndexing");
     need(features.computeQueue, "a queue with compute");
     need(workGroupInvocations >= kWorkGroup, "maxComputeWorkGroupInvocations of 256");
+    return lacks;
+}
+
+std::vector<std::string> DeviceDescription::missingForRaster() const {
+    std::vector<std::string> lacks;
+    if (!features.graphicsQueue) {
+        lacks.emplace_back("a queue with compute and graphics");
+    }
+    if (!features.geometryShader) {
+        lacks.emplace_back("geometryShader");
+    }
+    if (!features.depth32) {
+        lacks.emplace_back("D32_SFLOAT depth");
+    }
     return lacks;
 }
 

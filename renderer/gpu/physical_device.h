@@ -26,6 +26,10 @@ struct DeviceFeatures {
     bool storageArrayDynamicIndexing = false;
     bool storageArrayNonUniformIndexing = false;
     bool computeQueue = false;
+    // For rasterisation, which it may lack:
+    bool graphicsQueue = false;    // the same family as the compute queue
+    bool geometryShader = false;   // a triangle's number in fragment shaders
+    bool depth32 = false;          // depth as 32-bit float
 };
 
 struct DeviceDescription {
@@ -35,12 +39,14 @@ struct DeviceDescription {
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     uint32_t apiVersion = 0;
     uint32_t workGroupInvocations = 0;
-    uint32_t queueFamily = 0;      // with compute
+    uint32_t queueFamily = 0;      // with compute, and graphics where one family has both
     uint32_t timestampBits = 0;    // of that family; 0: no timestamps
     DeviceFeatures features;
 
     // What it lacks, in words; empty when it will do.
     std::vector<std::string> missing() const;
+    // What it lacks for rasterisation, in words; empty when it can.
+    std::vector<std::string> missingForRaster() const;
 };
 
 // In the driver's order, which is the order of indices in `--device`.

@@ -10,7 +10,7 @@
 namespace nightcity {
 namespace {
 
-constexpr std::uint32_t kSpansPerBatch = 3;  // surface, traverse, march
+constexpr std::uint32_t kSpansPerBatch = 4;  // raster, surface, traverse, march
 // Pixels of a band: about 100 MiB of records and images.
 constexpr std::uint32_t kBandPixels = 1u << 18;
 
@@ -61,17 +61,22 @@ struct FrameRenderer::Work {
     std::vector<vec2> samples;
     std::uint64_t firstPixel = 0;  // in the order of the frame or the pixel list
     std::uint64_t pixels = 0;
-    FrameCost cost;
+    FrameTable table{};        // of the frame, without the addresses of the band
+    bool listed = false;       // a list of pixels, not all
+    bool rasterised = false;
+    FrameCost cost{};
 };
 
 FrameRenderer::FrameRenderer(gpu::Device& device, gpu::Commands& commands)
-    : device_(device), commands_(commands), timestamps_(device, kSpansPerBatch) {}
+    : device_(device), commands_(commands), timestamps_(device, kSpansPerBatch), raster_(device) {}
 
 FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera,
                                 const RenderProduct& product, const RenderSettings& settings,
                                 const std::function<void(double)>& progress, Frame& frame) {
-    Work work{scene, settings, samplePositions(settings), 0, product.pixels.size(), {}};
-    if (product.pixels.empty()) {
+    Work work{.scene = scene, .settings = settings, .samples = samplePositions(settings)};
+    work.listed = !product.pixels.empty();
+    work.pixels = product.pixels.size();
+    if (!work.listed) {
         work.firstPixel = std::uint64_t{product.width} * product.rows().first;
         work.pixels = std::uint64_t{product.width} * product.rows().count;
     }
@@ -118,7 +123,7 @@ void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderSettings
     }
 }
 
-void FrameRenderer::prepareBand(const Work& work, const CameraFrame& camera,
+void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
                                 const RenderProduct& product) {
     const std::uint32_t rays =
         groupsFor(static_cast<std::uint32_t>(std::min<std::uint64_t>(work.pixels, kBandPixels))) *
@@ -128,7 +133,7 @@ void FrameRenderer::prepareBand(const Work& work, const CameraFrame& camera,
         band_.reset();
         band_ = std::make_unique<BandBuffers>(device_, rays, method);
     }
-    FrameTable table{};
+    FrameTable& table = work.table;
     setPosition(table, camera, product.cameraOffset);
     table.width = product.width;
     table.height = product.height;
@@ -137,6 +142,9 @@ void FrameRenderer::prepareBand(const Work& work, const CameraFrame& camera,
     if (method == Method::path) {
         setPaths(table, work.settings);
     }
+    work.rasterised = work.settings.primary == Primary::raster &&
+                      raster_.serves(work.scene, product.width, product.height);
+    table.proposals = work.rasterised ? raster_.prepare(product.width, product.height) : uvec2(0);
     band_->prepare(commands_, table, product.pixels, work.samples);
     if (!bound_) {
         warmUp(work.scene);
@@ -157,6 +165,28 @@ void FrameRenderer::warmUp(const GpuScene& scene) {
     });
 }
 
+void FrameRenderer::recordSurface(VkCommandBuffer commands, const Work& work,
+                                  const PushConstants& push) {
+    // The proposals of one sample serve all bands; those of several replace each other.
+    const bool oneSample = work.samples.size() == 1;
+    if (work.rasterised && (push.firstPixel == work.firstPixel || !oneSample)) {
+        FrameRows rows{work.table.width, work.table.height, 0, work.table.height};
+        if (!work.listed) {
+            const std::uint64_t count = oneSample ? work.pixels : push.pixelCount;
+            rows.first = push.firstPixel / rows.width;
+            rows.count =
+                static_cast<std::uint32_t>((push.firstPixel + count - 1) / rows.width) + 1 - rows.first;
+        }
+        const vec2 offset = glm::abs(work.samples[push.sampleIndex]);
+        timestamps_.span(commands, "raster", [&] {
+            raster_.record(commands, work.scene, push, work.table.camera, rows,
+                           std::max(offset.x, offset.y));
+        });
+        gpu::computeBarrier(commands);
+    }
+    dispatch(commands, "surface", pipelines_->surface, push);
+}
+
 void FrameRenderer::tracePaths(Work& work, PushConstants push,
                                const std::function<void(double)>& progress) {
     const std::uint32_t rounds = (work.settings.samples - 1) / kPathsPerDispatch + 1;
@@ -166,7 +196,7 @@ void FrameRenderer::tracePaths(Work& work, PushConstants push,
             vkCmdFillBuffer(commands, band_->counters().buffer().get(), 0, sizeof(PassCounters), 0);
             gpu::computeBarrier(commands);
             if (push.round == 0) {
-                dispatch(commands, "surface", pipelines_->surface, push);
+                recordSurface(commands, work, push);
             }
             dispatch(commands, "path", pipelines_->path, push);
             band_->counters().recordReadback(commands);
@@ -187,7 +217,7 @@ void FrameRenderer::marchSample(Work& work, PushConstants push) {
             vkCmdFillBuffer(commands, counterBuffer, 0, sizeof(PassCounters), 0);
             gpu::computeBarrier(commands);
             if (push.round == 0) {
-                dispatch(commands, "surface", pipelines_->surface, push);
+                recordSurface(commands, work, push);
             }
             if (media) {
                 dispatch(commands, "traverse", pipelines_->traverse, push);

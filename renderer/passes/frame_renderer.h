@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders a frame band by band: surface; traverse and march, or path; accumulate.
+// Renders a frame band by band: raster and surface; traverse and march, or path; accumulate.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include "passes/band_buffers.h"
 #include "passes/gpu_scene.h"
 #include "passes/pass_pipelines.h"
+#include "passes/triangle_raster.h"
 #include "settings.h"
 
 namespace nightcity {
@@ -42,8 +43,10 @@ private:
     struct Work;  // one render call
 
     void preparePipelines(const GpuScene& scene, const RenderSettings& settings);
-    void prepareBand(const Work& work, const CameraFrame& camera, const RenderProduct& product);
+    void prepareBand(Work& work, const CameraFrame& camera, const RenderProduct& product);
     void warmUp(const GpuScene& scene);
+    // Records the pass that finds the surfaces: the raster where it is due, then the rays'.
+    void recordSurface(VkCommandBuffer commands, const Work& work, const PushConstants& push);
     void tracePaths(Work& work, PushConstants push, const std::function<void(double)>& progress);
     void marchSample(Work& work, PushConstants push);
     void accumulateSample(Work& work, const PushConstants& push, bool last);
@@ -55,6 +58,7 @@ private:
     gpu::Device& device_;
     gpu::Commands& commands_;
     gpu::Timestamps timestamps_;
+    TriangleRaster raster_;
     std::unique_ptr<PassPipelines> pipelines_;
     std::unique_ptr<BandBuffers> band_;
     bool bound_ = false;

@@ -31,7 +31,7 @@ glm::vec3 halfExtent(const Window& window) {
     return glm::abs(window.halfU) + glm::abs(window.halfV);
 }
 
-std::vector<std::uint32_t> triangleIndices(const FlatScene& scene) {
+std::vector<std::uint32_t> indicesOf(const FlatScene& scene) {
     std::vector<std::uint32_t> indices;
     indices.reserve(scene.triangles.size() * 3);
     for (const Triangle& triangle : scene.triangles) {
@@ -56,9 +56,15 @@ uvec2 addressWords(VkDeviceAddress address) {
 }
 
 template <typename T>
-uvec2 GpuScene::uploadArray(const char* name, std::span<const T> data) {
-    gpu::Buffer buffer(device_, name, data.size_bytes(), gpu::MemoryKind::device, kBuildInput);
+gpu::Buffer GpuScene::upload(const char* name, std::span<const T> data, VkBufferUsageFlags usage) {
+    gpu::Buffer buffer(device_, name, data.size_bytes(), gpu::MemoryKind::device, usage);
     commands_.upload(buffer, data.data(), data.size_bytes());
+    return buffer;
+}
+
+template <typename T>
+uvec2 GpuScene::uploadArray(const char* name, std::span<const T> data) {
+    gpu::Buffer buffer = upload(name, data, 0);
     const uvec2 address = addressWords(buffer.address());
     arrays_.push_back(std::move(buffer));
     return address;
@@ -78,7 +84,10 @@ void GpuScene::syncGeometry(const FlatScene& scene) {
 void GpuScene::uploadGeometry(const FlatScene& scene) {
     const FacadeTable facades = buildFacades(scene);
     looseWindows_ = facades.looseWindows;
-    contents_.positions = uploadArray("positions", scene.positions);
+    positions_ = {};
+    positions_ = upload<vec3>("positions", scene.positions,
+                              kBuildInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    contents_.positions = addressWords(positions_.address());
     if (!scene.texcoords.empty()) {
         contents_.texcoords = uploadArray("texcoords", scene.texcoords);
     }
@@ -109,17 +118,17 @@ void GpuScene::uploadOccluders(const FlatScene& scene) {
 
 void GpuScene::buildTriangles(const FlatScene& scene) {
     triangles_ = {};
+    triangleIndices_ = {};
+    triangleIndices_ = upload<std::uint32_t>("triangle indices", indicesOf(scene),
+                                             kBuildInput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    chunks_ = chunkTriangles(scene);
     if (scene.triangles.empty()) {
         return;
     }
-    const std::vector<std::uint32_t> indices = triangleIndices(scene);
-    gpu::Buffer indexBuffer(device_, "triangle indices", indices.size() * 4,
-                            gpu::MemoryKind::device, kBuildInput);
-    commands_.upload(indexBuffer, indices.data(), indices.size() * 4);
     gpu::TriangleGeometry geometry;
-    geometry.positions = contents_.positions.x | VkDeviceAddress{contents_.positions.y} << 32;
+    geometry.positions = positions_.address();
     geometry.vertexCount = static_cast<std::uint32_t>(scene.positions.size());
-    geometry.indices = indexBuffer.address();
+    geometry.indices = triangleIndices_.address();
     geometry.triangleCount = static_cast<std::uint32_t>(scene.triangles.size());
     triangles_ = {device_, commands_, "building triangles", geometry};
 }

@@ -14,6 +14,7 @@
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "passes/light_buffers.h"
+#include "passes/triangle_chunks.h"
 #include "scene/flat_scene.h"
 #include "settings.h"
 
@@ -32,8 +33,15 @@ public:
     VkAccelerationStructureKHR structure() const { return topLevel_.get(); }
     VkDeviceAddress tableAddress() const { return table_.address(); }
     const LightBuffers& lights() const { return lights_; }
+    // What is drawn: vertices of 3 floats, 3 uint32 a triangle, and the chunks to cull by.
+    VkBuffer positions() const { return positions_.get(); }
+    VkBuffer triangleIndices() const { return triangleIndices_.get(); }
+    std::uint64_t vertexCount() const { return positions_.bytes() / sizeof(vec3); }
+    const std::vector<TriangleChunk>& chunks() const { return chunks_; }
 
 private:
+    template <typename T>
+    gpu::Buffer upload(const char* name, std::span<const T> data, VkBufferUsageFlags usage);
     template <typename T>
     uvec2 uploadArray(const char* name, std::span<const T> data);
     void uploadGeometry(const FlatScene& scene);
@@ -50,6 +58,9 @@ private:
     gpu::Device& device_;
     gpu::Commands& commands_;
     std::vector<gpu::Buffer> arrays_;        // of the geometry
+    gpu::Buffer positions_;
+    gpu::Buffer triangleIndices_;
+    std::vector<TriangleChunk> chunks_;
     std::vector<std::uint32_t> looseWindows_;
     gpu::AccelerationStructure triangles_;
     gpu::AccelerationStructure media_;

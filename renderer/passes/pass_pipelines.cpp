@@ -17,7 +17,7 @@ static_assert(sizeof(MarchMedium) == 20);
 static_assert(sizeof(SceneTable) == 21 * 8 + 16);
 static_assert(sizeof(BoxNode) == 32);
 static_assert(sizeof(OccluderFace) == 20);
-static_assert(sizeof(FrameTable) == 18 * 8 + 20 + sizeof(CameraFrame) + 12 + 16);
+static_assert(sizeof(FrameTable) == 19 * 8 + 20 + sizeof(CameraFrame) + 12 + 16);
 static_assert(sizeof(PushConstants) == 32);  // devices give at least 128
 static_assert(sizeof(SurfaceRecord) == 32);
 static_assert(sizeof(RayProgress) == 32);

@@ -127,6 +127,8 @@ struct SceneTable {
 struct FrameTable {
     uvec2 pixels;       // uvec2 each, or 0: all pixels, row by row
     uvec2 samples;      // vec2, offsets from the pixel centre
+    uvec2 proposals;    // uint, the triangle that the raster finds or kNone, one a pixel of the
+                        // frame, row by row; 0: not rasterised
     uvec2 surfaces;     // SurfaceRecord, one a ray of the band
     uvec2 progress;     // RayProgress, one a ray of the band
     uvec2 segments;     // Segment, slot s of ray r at s * bandRays + r
