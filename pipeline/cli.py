@@ -5,12 +5,14 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 import signal
 import sys
 from pathlib import Path
 
 from nightcity import __version__
 from nightcity.errors import NightcityError
+from nightcity.farm.commands import add_farm
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -49,7 +51,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"nightcity {__version__}")
     parser.set_defaults(passes_options_on=False)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for add in (_demo, _generate, _import, _validate, _export, _render, _chart, _bench):
+    for add in (_demo, _generate, _import, _validate, _export, _render, _stitch, _sheet, _movie):
+        add(commands)
+    for add in (_chart, _bench, add_farm):
         add(commands)
     return parser
 
@@ -185,13 +189,80 @@ def _render(commands: argparse._SubParsersAction) -> None:
         "--scene", type=Path, help="keep the flat scene in this folder (default: not kept)"
     )
     command.add_argument("--lists", choices=("recomputed", "authored"), default="recomputed")
+    command.add_argument(
+        "--options",
+        default="",
+        metavar="TEXT",
+        help="more options for nightcity-render in one argument, quoted as in a shell",
+    )
 
     def run(options: argparse.Namespace) -> int:
         from nightcity.render import render
 
-        return render(options.stage, options.renderer_options, options.scene, options.lists)
+        more = [*options.renderer_options, *shlex.split(options.options)]
+        return render(options.stage, more, options.scene, options.lists)
 
     command.set_defaults(run=run, passes_options_on=True)
+
+
+def _stitch(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser(
+        "stitch",
+        help="join the tiles of a frame",
+        description="Joins NAME.1of4.exr, NAME.2of4.exr, ... into NAME.exr.",
+    )
+    command.add_argument("frame", type=Path, help="the frame to write, or frame.####.exr")
+    command.add_argument("--frames", help="like 1-10 or 1-10x2,20")
+    command.add_argument("--remove-tiles", action="store_true", help="once the frame is whole")
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.frames import frame_files
+        from nightcity.stitch import stitch
+
+        for frame in frame_files(options.frame, options.frames):
+            print(stitch(frame, options.remove_tiles), flush=True)
+
+    command.set_defaults(run=run)
+
+
+def _add_pictures(command: argparse.ArgumentParser, kind: str) -> None:
+    command.add_argument("images", type=Path, help="like frame.####.exr; .exr, .png or .jpg")
+    command.add_argument("--frames", required=True, help="like 1-10 or 1-10x2,20")
+    command.add_argument("-o", "--output", type=Path, required=True, help=kind)
+    command.add_argument(
+        "--exposure", type=float, default=2, help="of .exr, in EV (default: %(default)s)"
+    )
+
+
+def _sheet(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("sheet", help="a contact sheet of rendered frames")
+    _add_pictures(command, "the sheet, .png")
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.frames import frame_files
+        from nightcity.preview import contact_sheet
+
+        frames = frame_files(options.images, options.frames)
+        print(contact_sheet(frames, options.output, options.exposure))
+
+    command.set_defaults(run=run)
+
+
+def _movie(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("movie", help="a movie of rendered frames")
+    _add_pictures(command, "the movie, .mp4")
+    command.add_argument(
+        "--scene", type=Path, required=True, help="the flat scene, for its frame rate"
+    )
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.frames import frame_files
+        from nightcity.preview import movie
+
+        frames = frame_files(options.images, options.frames)
+        print(movie(frames, options.output, options.scene, options.exposure))
+
+    command.set_defaults(run=run)
 
 
 def _chart(commands: argparse._SubParsersAction) -> None:

@@ -14,6 +14,10 @@ from pathlib import Path
 
 from nightcity.errors import DeviceError, NightcityError, SceneError, UsageError
 
+# A command goes with the process that waits for it, also where that is killed (prctl(2),
+# PR_SET_PDEATHSIG); setpriv is part of util-linux.
+WITH_ITS_PARENT = ("setpriv", "--pdeathsig", "TERM", "--")
+
 _ERRORS = {2: UsageError, 3: SceneError, 4: DeviceError}
 
 
@@ -59,7 +63,7 @@ def render(stage: Path, options: Sequence[str], keep: Path | None, lists: str) -
     """``nightcity render``: the renderer's own progress, messages and exit code pass through."""
     program = renderer()
     with flat_scene(stage, keep, lists) as scene:
-        process = subprocess.Popen([program, str(scene), *options])
+        process = subprocess.Popen([*WITH_ITS_PARENT, program, str(scene), *options])
         try:
             return process.wait()
         except BaseException:

@@ -44,6 +44,7 @@ NIGHTCITY_CHOICES(Filter, {"box", Filter::box}, {"gauss", Filter::gauss})
 NIGHTCITY_CHOICES(Primary, {"raster", Primary::raster}, {"rays", Primary::rays})
 NIGHTCITY_CHOICES(ProgressStyle, {"auto", ProgressStyle::automatic},
                   {"tty", ProgressStyle::terminal}, {"lines", ProgressStyle::lines},
+                  {"farm", ProgressStyle::farm},
                   {"none", ProgressStyle::none})
 
 #undef NIGHTCITY_CHOICES

@@ -105,7 +105,7 @@ void addImage(const ImageOptions& image, ImageFormat format, Entries& entries) {
     }
     std::string channels;
     for (const Channel& channel : selectChannels(image.aovs)) {
-        channels += (channels.empty() ? "" : ",") + std::string(channel.name);
+        channels.append(channels.empty() ? "" : ",").append(channel.name);
     }
     entries.emplace_back("channels", channels);
 }

@@ -16,7 +16,7 @@
 
 namespace nightcity {
 
-enum class ProgressStyle { automatic, terminal, lines, none };
+enum class ProgressStyle { automatic, terminal, lines, farm, none };
 
 struct Options {
     std::filesystem::path scene;

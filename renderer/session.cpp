@@ -81,10 +81,12 @@ public:
             listMissing(frames);
             return;
         }
-        for (const int frame : frames) {
+        for (std::size_t i = 0; i < frames.size(); ++i) {
             stopIfAsked();
-            renderFrame(frame);
+            progress_.frames(i, frames.size());
+            renderFrame(frames[i]);
         }
+        progress_.frames(frames.size(), frames.size());
         if (!options_.stats.empty() && !report_.frames.empty()) {
             completeReport();
             writeStatistics(options_.stats, report_);
@@ -149,30 +151,40 @@ private:
         return known;
     }
 
-    // The image of a frame: where it goes, and what it will say of itself.
-    std::pair<std::filesystem::path, ImageMetadata> imageOf(int frame) {
+    // What the image of a frame says of itself.
+    ImageMetadata startFrame(int frame) {
         product_.frame = frame;
         product_.cameraOffset = glm::vec3(0);
-        std::filesystem::path file = frameFile(options_.output, frame);
-        if (options_.tile) {
-            file = tileFile(file, *options_.tile);
-        }
-        return {file, describeImage(scene_, product_, options_.settings, image_, format_,
-                                    options_.tile)};
+        return describeImage(scene_, product_, options_.settings, image_, format_, options_.tile);
     }
 
-    bool isThere(const std::filesystem::path& file, const ImageMetadata& metadata) const {
+    std::filesystem::path imageFile(int frame) const {
+        const std::filesystem::path file = frameFile(options_.output, frame);
+        return options_.tile ? tileFile(file, *options_.tile) : file;
+    }
+
+    // The image that makes rendering the frame needless: its own, or of a tile the whole frame.
+    std::optional<std::filesystem::path> findImage(int frame, const ImageMetadata& metadata) const {
         const auto& [name, value] = metadata.entries.back();  // the settings' hash
-        return isWholeImage(file, name, value, product_.width, product_.rows().count, image_.rows);
+        const std::uint32_t width = product_.width;
+        const std::filesystem::path whole = frameFile(options_.output, frame);
+        if (isWholeImage(whole, name, value, width, product_.height)) {
+            return whole;
+        }
+        const std::filesystem::path tile = imageFile(frame);
+        if (options_.tile &&
+            isWholeImage(tile, name, value, width, product_.rows().count, image_.rows)) {
+            return tile;
+        }
+        return std::nullopt;
     }
 
     void listMissing(const std::vector<int>& frames) {
         std::size_t missing = 0;
         for (const int frame : frames) {
             stopIfAsked();
-            const auto& [file, metadata] = imageOf(frame);
-            if (!isThere(file, metadata)) {
-                std::cout << "missing " << file.string() << std::endl;
+            if (!findImage(frame, startFrame(frame))) {
+                std::cout << "missing " << imageFile(frame).string() << std::endl;
                 ++missing;
             }
         }
@@ -184,11 +196,14 @@ private:
     }
 
     void renderFrame(int frame) {
-        const auto& [file, metadata] = imageOf(frame);
-        if (options_.skipExisting && isThere(file, metadata)) {
-            progress_.line("kept " + file.string());
-            return;
+        const ImageMetadata metadata = startFrame(frame);
+        if (options_.skipExisting) {
+            if (const auto found = findImage(frame, metadata)) {
+                progress_.line("kept " + found->string());
+                return;
+            }
         }
+        const std::filesystem::path file = imageFile(frame);
         const Clock::time_point start = Clock::now();
         writeImage(file, renderOnce("frame " + std::to_string(frame)), metadata, image_);
         char seconds[32];

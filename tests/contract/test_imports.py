@@ -17,6 +17,7 @@ FORBIDDEN_IMPORTS = {
     "city": ("pxr", "nightcity.stage", "nightcity.export", "nightcity.chart", "nightcity.render"),
     "stage": ("nightcity.export", "nightcity.chart", "nightcity.render", "nightcity.city.generate"),
     "export": ("nightcity.city", "nightcity.stage", "nightcity.chart", "nightcity.render"),
+    "farm": ("pxr", "nightcity.city", "nightcity.stage", "nightcity.export", "nightcity.chart"),
     "chart": ("pxr", "nightcity.stage"),
 }
 # A folder of renderer/ -> the folders of renderer/ whose headers it may include.

@@ -131,8 +131,21 @@ TEST_F(Command, TilesHaveNamesOfTheirOwnAndAreKeptWhileTheyFit) {
     EXPECT_FALSE(std::filesystem::exists(at("a.exr")));
     ASSERT_EQ(run(render("a.exr", tile)), 0);
     EXPECT_EQ(text("out.txt"), "kept " + at("a.2of3.exr") + "\n");
+    ASSERT_EQ(run(render("a.exr")), 0);
+    ASSERT_EQ(run(render("a.exr", {"--tile", "1/3", "--skip-existing"})), 0);
+    EXPECT_EQ(text("out.txt"), "kept " + at("a.exr") + "\n");
     EXPECT_EQ(run(render("a.exr", {"--tile", "2/19"})), 2);
     EXPECT_NE(text("error.txt").find("18 rows"), std::string::npos) << text("error.txt");
+}
+
+TEST_F(Command, FarmsReadProgress) {
+    ASSERT_EQ(run(render("a.#.png", {"--frames", "1-2", "--progress", "farm"})), 0);
+    const std::string shown = text("out.txt");
+    for (const char* share : {"0", "50", "100"}) {
+        const std::string lines =
+            "openjd_progress: " + std::string(share) + "\nALF_PROGRESS " + share + "%\n";
+        EXPECT_NE(shown.find(lines), std::string::npos) << shown;
+    }
 }
 
 TEST_F(Command, AnEmptyCameraIsTheStages) {
