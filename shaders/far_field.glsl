@@ -21,7 +21,7 @@ NIGHTCITY_ARRAY(FarMediumArray, FarMedium)
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FarFieldReference {
     FarFieldTable table;
 };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FarNodeArray {
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FarNodeArray {
     uvec2 at[];
 };
 

@@ -73,6 +73,7 @@ uvec2 GpuScene::uploadArray(const char* name, std::span<const T> data) {
 void GpuScene::syncGeometry(const FlatScene& scene) {
     arrays_.clear();
     contents_ = {};
+    farFieldSettings_.reset();
     uploadGeometry(scene);
     uploadOccluders(scene);
     buildTriangles(scene);
@@ -198,6 +199,18 @@ void GpuScene::syncWindowState(const FlatScene& scene, int frame,
     contents_.windowOn = addressWords(windowOn_.address());
     contents_.marchMedia = addressWords(lights_.mediaAddress());
     writeTable();
+}
+
+void GpuScene::syncFarField(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
+                            const FarFieldSettings& settings) {
+    if (farFieldSettings_ != settings) {
+        farFieldSettings_.reset();
+        farField_.syncGeometry(scene, settings, tableAddress());
+        farFieldSettings_ = settings;
+        contents_.farField = addressWords(farField_.tableAddress());
+        writeTable();
+    }
+    farField_.syncWindowState(scene, windowOn, tableAddress());
 }
 
 void GpuScene::uploadState(gpu::Buffer& buffer, const char* name, const void* data,

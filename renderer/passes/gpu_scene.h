@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
+#include "passes/far_field_grid.h"
 #include "passes/light_buffers.h"
 #include "passes/triangle_chunks.h"
 #include "scene/flat_scene.h"
@@ -23,12 +25,20 @@ namespace nightcity {
 class GpuScene {
 public:
     GpuScene(gpu::Device& device, gpu::Commands& commands)
-        : device_(device), commands_(commands), lights_(device, commands) {}
+        : device_(device),
+          commands_(commands),
+          lights_(device, commands),
+          farField_(device, commands) {}
 
     // Triangles, facades, materials, media boxes. Throws DeviceError where a limit is passed.
     void syncGeometry(const FlatScene& scene);
     // Which windows are on at a frame, and the lists of those that are.
     void syncWindowState(const FlatScene& scene, int frame, const RenderSettings& settings);
+
+    // The far field of the windows that are on, one byte a window: laid out anew where geometry
+    // or settings changed, else only updated. To be called after syncWindowState.
+    void syncFarField(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
+                      const FarFieldSettings& settings);
 
     VkAccelerationStructureKHR structure() const { return topLevel_.get(); }
     VkDeviceAddress tableAddress() const { return table_.address(); }
@@ -38,6 +48,7 @@ public:
     VkBuffer triangleIndices() const { return triangleIndices_.get(); }
     std::uint64_t vertexCount() const { return positions_.bytes() / sizeof(vec3); }
     const std::vector<TriangleChunk>& chunks() const { return chunks_; }
+    const FarFieldGrid& farField() const { return farField_; }
 
 private:
     template <typename T>
@@ -70,6 +81,8 @@ private:
     gpu::Buffer lightNodes_;
     gpu::Buffer lightTrails_;
     LightBuffers lights_;
+    FarFieldGrid farField_;
+    std::optional<FarFieldSettings> farFieldSettings_;  // that the far field was laid out for
     gpu::Buffer table_;
     SceneTable contents_{};
 };

@@ -27,19 +27,6 @@ static_assert(sizeof(PassCounters) == 12);
 const gpu::Binding kStructure{NIGHTCITY_BINDING_STRUCTURE,
                               VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1};
 
-gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
-                                  std::span<const std::uint32_t> spirv,
-                                  std::vector<gpu::Binding> bindings,
-                                  std::vector<std::uint32_t> constants = {}) {
-    gpu::ComputePipelineInfo info;
-    info.name = name;
-    info.spirv = spirv;
-    info.bindings = std::move(bindings);
-    info.pushConstantBytes = sizeof(PushConstants);
-    info.constants = std::move(constants);
-    return {device, info};
-}
-
 std::vector<std::uint32_t> marchConstants(const PipelineChoice& choice) {
     std::vector<std::uint32_t> constants(5);
     constants[NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE] = choice.order == MarchOrder::lights ? 1 : 0;
@@ -49,12 +36,6 @@ std::vector<std::uint32_t> marchConstants(const PipelineChoice& choice) {
     constants[NIGHTCITY_CONSTANT_PAGE_ENTRIES] = choice.lights.entriesEach;
     constants[NIGHTCITY_CONSTANT_SUBDIVISIONS] = choice.subdivisions;
     return constants;
-}
-
-std::uint32_t emitterConstant(Emitter emitter) {
-    return emitter == Emitter::isotropic    ? kEmitterIsotropic
-           : emitter == Emitter::lambertian ? kEmitterLambertian
-                                            : kEmitterPane;
 }
 
 std::vector<std::uint32_t> pathConstants(const PipelineChoice& choice) {
@@ -68,6 +49,25 @@ std::vector<std::uint32_t> pathConstants(const PipelineChoice& choice) {
 }
 
 }  // namespace
+
+gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
+                                  std::span<const std::uint32_t> spirv,
+                                  std::vector<gpu::Binding> bindings,
+                                  std::vector<std::uint32_t> constants) {
+    gpu::ComputePipelineInfo info;
+    info.name = name;
+    info.spirv = spirv;
+    info.bindings = std::move(bindings);
+    info.pushConstantBytes = sizeof(PushConstants);
+    info.constants = std::move(constants);
+    return {device, info};
+}
+
+std::uint32_t emitterConstant(Emitter emitter) {
+    return emitter == Emitter::isotropic    ? kEmitterIsotropic
+           : emitter == Emitter::lambertian ? kEmitterLambertian
+                                            : kEmitterPane;
+}
 
 PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings)
     : choice(settings) {

@@ -4,6 +4,8 @@
 // The compute pipelines of a frame, made for one choice of settings.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gpu/compute_pipeline.h"
@@ -11,6 +13,15 @@
 #include "settings.h"
 
 namespace nightcity {
+
+// Reads PushConstants; `constants` are specialization constants 0, 1, 2, ...
+gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
+                                  std::span<const std::uint32_t> spirv,
+                                  std::vector<gpu::Binding> bindings,
+                                  std::vector<std::uint32_t> constants = {});
+
+// kEmitterIsotropic and so on.
+std::uint32_t emitterConstant(Emitter emitter);
 
 // Settings that pipelines are specialised to.
 struct PipelineChoice {

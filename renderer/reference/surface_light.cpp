@@ -15,13 +15,18 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kInnerShare = 0.1;  // of a pane's tolerance, for each line of it
 
+// The distance times the cosine at the point: 1 in the haze.
+double received(const SurfacePoint& point, glm::dvec3 way) {
+    return point.normal == glm::dvec3(0) ? glm::length(way)
+                                         : std::max(0.0, glm::dot(point.normal, way));
+}
+
 // Cosines at both ends over pi d^2 (m^-2): 0 behind either.
 double exchange(const SurfacePoint& point, glm::dvec3 place, glm::dvec3 normal) {
     const glm::dvec3 way = place - point.place;
     const double squared = glm::dot(way, way);
-    const double received = std::max(0.0, glm::dot(point.normal, way));
     const double emitted = std::max(0.0, -glm::dot(normal, way));
-    return received * emitted / (kPi * squared * squared);
+    return received(point, way) * emitted / (kPi * squared * squared);
 }
 
 // Off the surface by a micrometre: above the ground for a point on it.
@@ -33,6 +38,9 @@ glm::dvec3 seenSide(const SurfacePoint& point) {
 Interval facing(const SurfacePoint& point, glm::dvec3 begin, glm::dvec3 end) {
     const double a = glm::dot(point.normal, begin - point.place);
     const double b = glm::dot(point.normal, end - point.place);
+    if (point.normal == glm::dvec3(0)) {
+        return {0, 1};
+    }
     if (a <= 0 && b <= 0) {
         return {};
     }
@@ -48,8 +56,10 @@ double bound(const SurfacePoint& point, const LitWindow& window, Emitter emitter
     if (glm::dot(point.normal, window.centre - point.place) < (pane ? -window.reach : 0)) {
         return 0;
     }
-    // Irradiance under a Lambertian pane is below pi times its radiance, P / A.
-    const double under = 1 / (4 * glm::length(glm::cross(window.halfU, window.halfV)));
+    // Irradiance under a Lambertian pane is below pi times its radiance, P / A; fluence, seen
+    // over half the sphere, below 2 pi times.
+    const double share = point.normal == glm::dvec3(0) ? 2 : 1;
+    const double under = share / (4 * glm::length(glm::cross(window.halfU, window.halfV)));
     if (pane && nearest <= 0) {
         return under;
     }
@@ -100,9 +110,9 @@ double SurfaceLight::ownExtinction(const SurfacePoint& point) const {
 double SurfaceLight::fromPoint(const SurfacePoint& point, const PointSource& source) const {
     const glm::dvec3 way = source.place - point.place;
     const double distance = glm::length(way);
-    const double received = std::max(0.0, glm::dot(point.normal, way)) / distance;
+    const double cosine = received(point, way) / distance;
     const double clear = source.lobe == Lobe::isotropic
-                             ? received / (4 * kPi * distance * distance)
+                             ? cosine / (4 * kPi * distance * distance)
                              : exchange(point, source.place, source.normal);
     if (!(clear > 0) || distance < source.radius) {
         return 0;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light that falls from the windows straight on a point of a surface.
+// Light that falls from the windows straight on a point of a surface, or reaches a point in
+// the haze.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@ namespace nightcity {
 
 struct SurfacePoint {
     glm::dvec3 place{0};   // m
-    glm::dvec3 normal{0};  // unit vector, to the side that is seen
+    glm::dvec3 normal{0};  // unit vector, to the side that is seen; 0: no surface, but a point in
+                           // the haze, whose fluence is meant where this says irradiance
     // The media box that the seen side lies in, into LightScene::mediaBoxes. Listed
     // lights and attenuation without visibility are those of this box; none: no
     // listed light, and clear air.
@@ -28,11 +30,11 @@ public:
 
     // Irradiance, W m^-2.
     WindowSum irradiance(const SurfacePoint& point) const;
-
-private:
     // m^-2: irradiance per watt.
     Estimate fromWindow(const SurfacePoint& point, const LitWindow& window,
                         const Tolerance& tolerance) const;
+
+private:
     double fromPoint(const SurfacePoint& point, const PointSource& source) const;
     Estimate fromPane(const SurfacePoint& point, const LitWindow& window,
                       const Tolerance& tolerance) const;

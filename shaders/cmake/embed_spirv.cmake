@@ -7,9 +7,14 @@ file(READ ${INPUT} hex HEX)
 # SPIR-V words are little endian in the file.
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
 string(REGEX REPLACE "(0x........,0x........,0x........,0x........,)" "\\1\n" words "${words}")
-string(SUBSTRING ${NAME} 0 1 first)
-string(SUBSTRING ${NAME} 1 -1 rest)
-string(TOUPPER ${first} first)
+set(camel "")
+string(REPLACE "_" ";" parts ${NAME})
+foreach(part IN LISTS parts)
+    string(SUBSTRING ${part} 0 1 first)
+    string(SUBSTRING ${part} 1 -1 rest)
+    string(TOUPPER ${first} first)
+    string(APPEND camel ${first}${rest})
+endforeach()
 file(WRITE ${OUTPUT} "// Made from ${NAME}.comp by shaders/cmake/embed_spirv.cmake.
 #pragma once
 
@@ -17,7 +22,7 @@ file(WRITE ${OUTPUT} "// Made from ${NAME}.comp by shaders/cmake/embed_spirv.cma
 
 namespace nightcity {
 
-inline constexpr std::uint32_t k${first}${rest}Spirv[] = {
+inline constexpr std::uint32_t k${camel}Spirv[] = {
 ${words}};
 
 }  // namespace nightcity

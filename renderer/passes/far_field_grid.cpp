@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/far_field_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "far_finish_spirv.h"
+#include "far_sides_spirv.h"
+#include "far_sight_spirv.h"
+#include "far_sum_spirv.h"
+#include "passes/far_media.h"
+#include "passes/occluder_tree.h"
+#include "passes/pass_pipelines.h"
+
+namespace nightcity {
+namespace {
+
+// The layouts that GL_EXT_scalar_block_layout gives the same records.
+static_assert(sizeof(FarMedium) == 32);
+static_assert(sizeof(FarBrick) == 16);
+static_assert(sizeof(FarFieldTable) == 5 * 8 + 36);
+static_assert(sizeof(FarLight) == 56);
+static_assert(sizeof(FarEntry) == 12 + 4 * kFarFaces);
+static_assert(sizeof(FarBakeTable) == 13 * 8 + 24);
+
+constexpr std::uint32_t kBatchBricks = 512;
+constexpr std::uint32_t kFirstCapacity = 512;  // entries a brick
+constexpr std::uint64_t kEntryBytes = 256u << 20;  // of a batch, most
+constexpr float kLargestHalf = 65504;
+
+float skyHeight(const FlatScene& scene) {
+    float height = scene.ground ? scene.ground->height : 0;
+    for (const vec3& position : scene.positions) {
+        height = std::max(height, position.z);
+    }
+    return height + 1;
+}
+
+}  // namespace
+
+template <typename T>
+uvec2 FarFieldGrid::uploadArray(const char* name, std::span<const T> data) {
+    arrays_.emplace_back(device_, name, data.size_bytes(), gpu::MemoryKind::device);
+    commands_.upload(arrays_.back(), data.data(), data.size_bytes());
+    return addressWords(arrays_.back().address());
+}
+
+uvec2 FarFieldGrid::allocate(const char* name, std::uint64_t bytes) {
+    arrays_.emplace_back(device_, name, bytes, gpu::MemoryKind::device);
+    return addressWords(arrays_.back().address());
+}
+
+void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& settings,
+                            VkDeviceAddress sceneTable) {
+    hasSums_ = false;
+    arrays_.clear();
+    sums_ = {};
+    nodes_ = {};
+    contents_ = {};
+    bake_ = {};
+    if (!hasPipelines_ || settings.emitter != settings_.emitter ||
+        settings.visibility != settings_.visibility) {
+        makePipelines(settings);
+    }
+    settings_ = settings;
+    const std::vector<FarMedium> media = mergeMedia(scene);
+    layout_ = layoutFarField(media, settings.spacing, settings.memoryBytes);
+    lights_ = buildFarLights(scene, media, settings.emitter);
+    bake_.skyHeight = skyHeight(scene);
+    uploadLayout(media);
+    uploadLights();
+    writeTables();
+    findSides(sceneTable);
+}
+
+void FarFieldGrid::makePipelines(const FarFieldSettings& settings) {
+    const std::uint32_t visibility = settings.visibility == Visibility::full ? 1 : 0;
+    const std::vector<std::uint32_t> constants{emitterConstant(settings.emitter), visibility};
+    sides_ = makePipeline(device_, "far sides", kFarSidesSpirv, {}, constants);
+    sight_ = makePipeline(device_, "far sight", kFarSightSpirv, {}, constants);
+    sum_ = makePipeline(device_, "far sum", kFarSumSpirv, {}, constants);
+    finish_ = makePipeline(device_, "far finish", kFarFinishSpirv, {}, constants);
+    hasPipelines_ = true;
+}
+
+void FarFieldGrid::uploadLayout(std::span<const FarMedium> media) {
+    contents_.index = uploadArray<uint>("far index", layout_.index);
+    contents_.bricks = uploadArray<FarBrick>("far bricks", layout_.bricks);
+    contents_.media = uploadArray<FarMedium>("far media", media);
+    contents_.mediumList = uploadArray<uint>("far medium lists", layout_.mediumList);
+    nodes_ = gpu::Buffer(device_, "far nodes", layout_.nodes * sizeof(uvec2),
+                         gpu::MemoryKind::device);
+    contents_.nodes = addressWords(nodes_.address());
+    contents_.origin = layout_.origin;
+    contents_.brickSide = layout_.brickSide;
+    contents_.brickCounts = layout_.counts;
+    contents_.nearRadius = settings_.nearRadius;
+    contents_.nodeUnit = 1;
+    bake_.brickCells = uploadArray<uvec3>("far brick cells", layout_.cells);
+    bake_.sides = allocate("far sides", layout_.bricks.size() * kBrickSideWords * 4);
+    units_ = gpu::ReadableBuffer(device_, "far units", layout_.bricks.size() * 4);
+    bake_.units = addressWords(units_.buffer().address());
+    sums_ = gpu::Buffer(device_, "far sums", layout_.nodes * sizeof(uvec3), gpu::MemoryKind::device);
+    bake_.sums = addressWords(sums_.address());
+    if (!media.empty()) {
+        std::vector<Bounds> bounds;
+        for (const FarMedium& medium : media) {
+            bounds.push_back({glm::dvec3(medium.lo), glm::dvec3(medium.hi)});
+        }
+        bake_.mediaNodes =
+            uploadArray<BoxNode>("far media tree", packBoxTree(BoxTree(std::move(bounds))));
+    }
+}
+
+void FarFieldGrid::uploadLights() {
+    bake_.lights = uploadArray<FarLight>("far lights", lights_.lights);
+    bake_.roots = uploadArray<uint>("far roots", lights_.roots);
+    bake_.lightCount = static_cast<std::uint32_t>(lights_.lights.size());
+    bake_.rootCount = static_cast<std::uint32_t>(lights_.roots.size());
+    const std::uint64_t bytes = lights_.lights.size() * sizeof(vec3);
+    emission_ = gpu::Buffer(device_, "far emission", bytes, gpu::MemoryKind::device);
+    bakedEmission_ = gpu::Buffer(device_, "far baked emission", bytes, gpu::MemoryKind::device);
+    changed_ = gpu::Buffer(device_, "far changed lights", (lights_.lights.size() + 31) / 32 * 4,
+                           gpu::MemoryKind::device);
+    bake_.emission = addressWords(emission_.address());
+    bake_.baked = addressWords(bakedEmission_.address());
+    bake_.changed = addressWords(changed_.address());
+    // The largest that one window brings anywhere (far_sight.comp), in 2^18 parts: so the
+    // bounds of 2^14 windows at arm's length still fit.
+    const double largest = 8.0 * double(lights_.strongest) /
+                           (std::numbers::pi * double(settings_.nearRadius) * double(settings_.nearRadius));
+    bake_.boundUnit = float(std::max(largest, 1e-30) / 262144.0);
+    makeEntryBuffers(kFirstCapacity);
+}
+
+void FarFieldGrid::makeEntryBuffers(std::uint32_t capacity) {
+    entries_ = {};
+    entryCounts_ = {};
+    const std::uint64_t each = std::uint64_t{capacity} * sizeof(FarEntry);
+    const auto bricks = static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(kEntryBytes / each, 1, kBatchBricks));
+    entries_ = gpu::Buffer(device_, "far entries", each * bricks, gpu::MemoryKind::device);
+    entryCounts_ = gpu::ReadableBuffer(device_, "far entry counts", std::uint64_t{bricks} * 4);
+    bake_.entries = addressWords(entries_.address());
+    bake_.entryCounts = addressWords(entryCounts_.buffer().address());
+    bake_.entryCapacity = capacity;
+}
+
+void FarFieldGrid::writeTables() {
+    if (!table_) {
+        table_ = gpu::Buffer(device_, "far field table", sizeof(FarFieldTable),
+                             gpu::MemoryKind::device);
+        bakeTable_ = gpu::Buffer(device_, "far bake table", sizeof(FarBakeTable),
+                                 gpu::MemoryKind::device);
+    }
+    bake_.field = addressWords(table_.address());
+    commands_.upload(table_, &contents_, sizeof contents_);
+    commands_.upload(bakeTable_, &bake_, sizeof bake_);
+}
+
+PushConstants FarFieldGrid::pushOf(VkDeviceAddress sceneTable, Batch batch) const {
+    PushConstants push{};
+    push.scene = addressWords(sceneTable);
+    push.frame = addressWords(bakeTable_.address());
+    push.firstPixel = batch.first;
+    push.pixelCount = batch.count;
+    return push;
+}
+
+void FarFieldGrid::dispatch(const char* name, const gpu::ComputePipeline& pipeline,
+                        PushConstants push) {
+    const std::uint32_t end = push.firstPixel + push.pixelCount;
+    const std::uint32_t most = std::min(device_.limits().workGroupCount, 65535u);
+    while (push.firstPixel < end) {
+        const std::uint32_t count = std::min(end - push.firstPixel, most);
+        commands_.run(name, [&](VkCommandBuffer commands) {
+            pipeline.dispatch(commands, &push, count);
+            gpu::computeBarrier(commands);
+        });
+        push.firstPixel += count;
+    }
+}
+
+void FarFieldGrid::findSides(VkDeviceAddress sceneTable) {
+    dispatch("far sides", sides_,
+             pushOf(sceneTable, {0, static_cast<std::uint32_t>(layout_.bricks.size())}));
+}
+
+void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
+                               VkDeviceAddress sceneTable) {
+    const std::vector<vec3> emission = emissionOf(lights_, scene, windowOn);
+    if (hasSums_ && emission == baked_) {
+        return;
+    }
+    if (!hasSums_) {
+        baked_.assign(emission.size(), vec3(0));
+        commands_.run("clearing far sums", [&](VkCommandBuffer commands) {
+            vkCmdFillBuffer(commands, sums_.get(), 0, VK_WHOLE_SIZE, 0);
+            gpu::computeBarrier(commands);
+        });
+    }
+    const std::vector<uint> changed = changedLights(lights_, baked_, emission);
+    commands_.upload(emission_, emission.data(), emission.size() * sizeof(vec3));
+    commands_.upload(bakedEmission_, baked_.data(), baked_.size() * sizeof(vec3));
+    commands_.upload(changed_, changed.data(), changed.size() * 4);
+    bake_.update = hasSums_ ? 1 : 0;
+    hasSums_ = false;  // until all bricks have the new state
+    writeTables();
+    bakeBricks(sceneTable);
+    if (bake_.update == 0) {
+        chooseNodeUnit();
+    }
+    finish(sceneTable);
+    baked_ = emission;
+    hasSums_ = true;
+}
+
+void FarFieldGrid::bakeBricks(VkDeviceAddress sceneTable) {
+    const auto bricks = static_cast<std::uint32_t>(layout_.bricks.size());
+    for (std::uint32_t first = 0; first < bricks;) {
+        const auto room = static_cast<std::uint32_t>(entryCounts_.bytes() / 4);
+        const Batch batch{first, std::min(bricks - first, room)};
+        const PushConstants push = pushOf(sceneTable, batch);
+        const std::uint32_t most = findEntries(push);
+        if (most > bake_.entryCapacity) {
+            makeEntryBuffers(most + most / 4);
+            writeTables();
+            continue;
+        }
+        dispatch("far sum", sum_, push);
+        first += batch.count;
+    }
+}
+
+// Returns the most that a brick has.
+std::uint32_t FarFieldGrid::findEntries(const PushConstants& push) {
+    commands_.run("far sight", [&](VkCommandBuffer commands) {
+        vkCmdFillBuffer(commands, entryCounts_.buffer().get(), 0, VK_WHOLE_SIZE, 0);
+        gpu::computeBarrier(commands);
+        sight_.dispatch(commands, &push, push.pixelCount);
+        gpu::computeBarrier(commands);
+        entryCounts_.recordReadback(commands);
+        units_.recordReadback(commands);
+    });
+    const auto* counts = static_cast<const std::uint32_t*>(entryCounts_.data());
+    return *std::max_element(counts, counts + push.pixelCount);
+}
+
+// So that no sum passes what a half holds, whichever windows are on.
+void FarFieldGrid::chooseNodeUnit() {
+    if (layout_.bricks.empty()) {
+        return;
+    }
+    const auto* units = static_cast<const float*>(units_.data());
+    const float largest = *std::max_element(units, units + layout_.bricks.size());
+    contents_.nodeUnit = std::ldexp(largest, 31) / kLargestHalf;
+    writeTables();
+}
+
+void FarFieldGrid::finish(VkDeviceAddress sceneTable) {
+    dispatch("far finish", finish_,
+             pushOf(sceneTable, {0, static_cast<std::uint32_t>(layout_.bricks.size())}));
+}
+
+}  // namespace nightcity

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The far part of the fluence on the device (shaders/shared/far_field.h): laid out for a
+// scene, baked for the windows that are on, updated when others are.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dispatch.h"
+#include "far_bake.h"
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
+#include "gpu/compute_pipeline.h"
+#include "gpu/readable_buffer.h"
+#include "passes/far_layout.h"
+#include "passes/far_lights.h"
+#include "scene/flat_scene.h"
+#include "settings.h"
+
+namespace nightcity {
+
+struct FarFieldSettings {
+    Emitter emitter = Emitter::pane;
+    Visibility visibility = Visibility::full;
+    float spacing = 1;     // of the nodes, m
+    float nearRadius = 4;  // R of near_far_split.h, m; at least 4 spacings keep 1 %
+    std::uint64_t memoryBytes = 1'000'000'000;  // of the nodes, most
+
+    bool operator==(const FarFieldSettings&) const = default;
+};
+
+class FarFieldGrid {
+public:
+    FarFieldGrid(gpu::Device& device, gpu::Commands& commands)
+        : device_(device), commands_(commands) {}
+
+    // Lays the field out; the next bake is a full one. `sceneTable` must hold windows, ground
+    // and occluders. Throws DeviceError where the nodes pass the memory that they may take.
+    void syncGeometry(const FlatScene& scene, const FarFieldSettings& settings,
+                      VkDeviceAddress sceneTable);
+    // Bakes the windows that are on, one byte a window; only those that changed where an earlier
+    // state was baked: the nodes are then those of a full bake, to the bit.
+    void syncWindowState(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
+                         VkDeviceAddress sceneTable);
+
+    // Of the FarFieldTable; 0 before the first syncGeometry.
+    VkDeviceAddress tableAddress() const { return table_ ? table_.address() : 0; }
+    const FarFieldTable& table() const { return contents_; }
+    const gpu::Buffer& nodes() const { return nodes_; }  // uvec2 each, as frames read them
+    std::uint64_t nodeCount() const { return layout_.nodes; }
+
+private:
+    // Bricks of one batch.
+    struct Batch {
+        std::uint32_t first, count;
+    };
+
+    template <typename T>
+    uvec2 uploadArray(const char* name, std::span<const T> data);
+    uvec2 allocate(const char* name, std::uint64_t bytes);
+    void makePipelines(const FarFieldSettings& settings);
+    void uploadLayout(std::span<const FarMedium> media);
+    void uploadLights();
+    void findSides(VkDeviceAddress sceneTable);
+    void makeEntryBuffers(std::uint32_t capacity);
+    void bakeBricks(VkDeviceAddress sceneTable);
+    std::uint32_t findEntries(const PushConstants& push);
+    void finish(VkDeviceAddress sceneTable);
+    void chooseNodeUnit();
+    void dispatch(const char* name, const gpu::ComputePipeline& pipeline, PushConstants push);
+    void writeTables();
+    PushConstants pushOf(VkDeviceAddress sceneTable, Batch batch) const;
+
+    gpu::Device& device_;
+    gpu::Commands& commands_;
+    FarFieldSettings settings_;
+    FarLayout layout_;
+    FarLights lights_;
+    std::vector<vec3> baked_;  // emission that the sums hold, one a light
+    bool hasSums_ = false;
+    bool hasPipelines_ = false;
+    std::vector<gpu::Buffer> arrays_;
+    gpu::Buffer table_;
+    gpu::Buffer bakeTable_;
+    gpu::Buffer emission_, bakedEmission_, changed_;
+    gpu::Buffer sums_;
+    gpu::Buffer nodes_;
+    gpu::Buffer entries_;
+    gpu::ReadableBuffer entryCounts_;
+    gpu::ReadableBuffer units_;
+    FarFieldTable contents_{};
+    FarBakeTable bake_{};
+    gpu::ComputePipeline sides_, sight_, sum_, finish_;
+};
+
+}  // namespace nightcity

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tree over all windows that the bake of the far field walks (far_bake.h). Its shape
+// does not depend on which windows are on. No Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "far_bake.h"
+#include "scene/flat_scene.h"
+#include "settings.h"
+
+namespace nightcity {
+
+struct FarLights {
+    std::vector<FarLight> lights;  // the root first; empty without windows of any power
+    std::vector<uint> roots;       // together they hold every window
+    float strongest = 0;           // W, of one channel of one window
+};
+
+FarLights buildFarLights(const FlatScene& scene, std::span<const FarMedium> media,
+                         Emitter emitter);
+
+// W per channel and light: of the windows that are on. `windowOn`: one byte a window.
+std::vector<vec3> emissionOf(const FarLights& tree, const FlatScene& scene,
+                             std::span<const std::uint8_t> windowOn);
+
+// Bit i: whether anything that light i holds emits differently.
+std::vector<uint> changedLights(const FarLights& tree, std::span<const vec3> before,
+                                std::span<const vec3> after);
+
+}  // namespace nightcity

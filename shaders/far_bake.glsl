@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the passes of the bake share: one work group a brick.
+#ifndef NIGHTCITY_SHADERS_FAR_BAKE_GLSL
+#define NIGHTCITY_SHADERS_FAR_BAKE_GLSL
+
+#include "far_field.glsl"
+#include "far_bake.h"
+
+layout(constant_id = NIGHTCITY_CONSTANT_FAR_EMITTER) const uint kFarEmitter = kEmitterPane;
+layout(constant_id = NIGHTCITY_CONSTANT_FAR_VISIBILITY) const uint kFarVisibility = 1u;
+
+NIGHTCITY_ARRAY(FarLightArray, FarLight)
+NIGHTCITY_ARRAY(FarEntryArray, FarEntry)
+NIGHTCITY_ARRAY(Uvec3Array, uvec3)
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FarBakeReference {
+    FarBakeTable table;
+};
+
+// The table of the pass: the bake has no frame.
+#define bakeTable FarBakeReference(push.frame).table
+#define bakedField FarFieldReference(bakeTable.field).table
+
+// Of the batch, and of all.
+uint groupInBatch() {
+    return gl_WorkGroupID.x;
+}
+uint groupBrick() {
+    return push.firstPixel + gl_WorkGroupID.x;
+}
+
+float brickSpacing(FarFieldTable field, FarBrick brick) {
+    return field.brickSide / float(kBrickCells >> brick.level);
+}
+
+uint brickNodeCount(FarBrick brick) {
+    uint side = (kBrickCells >> brick.level) + 1u;
+    return side * side * side;
+}
+
+// Of a node along each axis, from 0.
+uvec3 nodePlace(FarBrick brick, uint node) {
+    uint side = (kBrickCells >> brick.level) + 1u;
+    return uvec3(node % side, node / side % side, node / (side * side));
+}
+
+vec3 groupBrickCorner(FarFieldTable field) {
+    return brickCorner(field, ivec3(Uvec3Array(bakeTable.brickCells).at[groupBrick()]));
+}
+
+#endif

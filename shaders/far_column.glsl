@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One window and the nodes of an upright column. Along it whatever is linear in space
+// is linear in the number of the node; so a convex face hides a pane's point from one
+// run of nodes, found without asking each.
+#ifndef NIGHTCITY_SHADERS_FAR_COLUMN_GLSL
+#define NIGHTCITY_SHADERS_FAR_COLUMN_GLSL
+
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_vote : require
+
+#include "far_window.glsl"
+
+const uint kColumnNodes = kBrickCells + 1u;
+const uint kAllNodes = (1u << kColumnNodes) - 1u;
+
+struct Column {
+    vec3 foot;      // of node 0, from the brick's centre, m
+    float spacing;  // m
+};
+
+// Bit i of each: whether node i does not see that point of the pane.
+struct Hidden {
+    uvec4 nodes;
+};
+
+FarWindow windowOfLane(FarWindow mine, uint lane) {
+    FarWindow window;
+    window.centre = subgroupBroadcast(mine.centre, lane);
+    window.u = subgroupBroadcast(mine.u, lane);
+    window.v = subgroupBroadcast(mine.v, lane);
+    window.normal = subgroupBroadcast(mine.normal, lane);
+    window.a = subgroupBroadcast(mine.a, lane);
+    window.b = subgroupBroadcast(mine.b, lane);
+    window.exactBelow = subgroupBroadcast(mine.exactBelow, lane);
+    window.isSphere = subgroupBroadcast(mine.isSphere, lane);
+    window.faceCount = subgroupBroadcast(mine.faceCount, lane);
+    window.extinction = subgroupBroadcast(mine.extinction, lane);
+    return window;
+}
+
+// A number of nodes, within which all conditions so far hold.
+struct NodeRange {
+    float first, last;
+};
+
+// Keeps the nodes i where atFoot + i slope <= 0. A slope of 0 keeps all or none.
+void keepBelow(inout NodeRange range, float atFoot, float slope) {
+    bool level = abs(slope) < 1e-20;
+    float crossing = level ? (atFoot <= 0.0 ? 1e9 : -1e9) : -atFoot / slope;
+    if (slope < 0.0 && !level) {
+        range.first = max(range.first, crossing);
+    } else {
+        range.last = min(range.last, crossing);
+    }
+}
+
+uint nodesOf(NodeRange range) {
+    float first = ceil(max(range.first, 0.0));
+    float last = floor(min(range.last, float(kColumnNodes) - 1.0));
+    return first > last ? 0u : (2u << uint(int(last))) - (1u << uint(int(first)));
+}
+
+// A face as one lane of a subgroup reads it for all: reading it in each would cost more
+// than what is done with it.
+struct ReadFace {
+    vec3 normal;
+    vec3 corner[4];  // the last repeated where there are three
+    bool isMore;     // than four corners
+};
+
+ReadFace readFace(uint index, vec3 origin) {
+    OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
+    ReadFace read;
+    read.normal = face.normal;
+    read.isMore = face.cornerCount > 4u;
+    [[unroll]] for (uint c = 0u; c < 4u; ++c) {
+        read.corner[c] = faceCorner(face, min(c, face.cornerCount - 1u), origin);
+    }
+    return read;
+}
+
+ReadFace faceOfLane(ReadFace mine, uint lane) {
+    ReadFace face;
+    face.normal = subgroupBroadcast(mine.normal, lane);
+    [[unroll]] for (uint c = 0u; c < 4u; ++c) {
+        face.corner[c] = subgroupBroadcast(mine.corner[c], lane);
+    }
+    face.isMore = subgroupBroadcast(mine.isMore, lane);
+    return face;
+}
+
+// The planes of a shadow: all beyond the face, inside the planes through the point and each
+// edge.
+NodeRange beyondFace(vec3 normal, vec3 corner, float side, Column column) {
+    NodeRange range = NodeRange(0.0, float(kColumnNodes) - 1.0);
+    keepBelow(range, side * dot(normal, column.foot - corner),
+              side * normal.z * column.spacing);
+    return range;
+}
+
+void keepInsideEdge(inout NodeRange range, vec3 toCorner, vec3 toNext, float side, vec3 way,
+                    Column column) {
+    vec3 plane = cross(toCorner, toNext) * side;
+    keepBelow(range, dot(plane, way), plane.z * column.spacing);
+}
+
+float sideOf(vec3 normal, vec3 fromCorner) {
+    return dot(normal, fromCorner) < 0.0 ? -1.0 : 1.0;
+}
+
+uint hiddenByFour(ReadFace face, vec3 point, Column column) {
+    float side = sideOf(face.normal, point - face.corner[0]);
+    NodeRange range = beyondFace(face.normal, face.corner[0], side, column);
+    vec3 way = column.foot - point;
+    [[unroll]] for (uint c = 0u; c < 4u; ++c) {
+        keepInsideEdge(range, face.corner[c] - point, face.corner[(c + 1u) & 3u] - point, side, way,
+                       column);
+    }
+    return nodesOf(range);
+}
+
+uint hiddenByMore(uint index, vec3 point, Column column, vec3 origin) {
+    OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
+    vec3 corner = faceCorner(face, 0u, origin);
+    float side = sideOf(face.normal, point - corner);
+    NodeRange range = beyondFace(face.normal, corner, side, column);
+    vec3 way = column.foot - point;
+    for (uint c = 0u; c < face.cornerCount; ++c) {
+        vec3 next = faceCorner(face, c + 1u, origin);
+        keepInsideEdge(range, corner - point, next - point, side, way, column);
+        corner = next;
+    }
+    return nodesOf(range);
+}
+
+Hidden hiddenByGround(FarWindow window, vec3 origin) {
+    Hidden hidden;
+    [[unroll]] for (uint p = 0u; p < 4u; ++p) {
+        bool below = sceneTable.groundMaterial != kNone &&
+                     origin.z + panePoint(window, p).z < sceneTable.groundHeight;
+        hidden.nodes[p] = below ? kAllNodes : 0u;
+    }
+    return hidden;
+}
+
+bool hidesAllNodes(Hidden hidden) {
+    return subgroupAll(all(equal(hidden.nodes, uvec4(kAllNodes))));
+}
+
+// `entry` is the same in all of the subgroup.
+Hidden hiddenFromColumn(uint entry, FarWindow window, Column column, vec3 origin) {
+    Hidden hidden;
+    hidden.nodes = uvec4(0u);
+    if (kFarVisibility == 0u) {
+        return hidden;
+    }
+    hidden = hiddenByGround(window, origin);
+    uint faces = window.faceCount == kManyFaces ? 0u : window.faceCount;
+    for (uint first = 0u; first < faces; first += gl_SubgroupSize) {
+        uint lane = min(first + gl_SubgroupInvocationID, faces - 1u);
+        uint mine = FarEntryArray(bakeTable.entries).at[entry].face[lane];
+        ReadFace read = readFace(mine, origin);
+        uint count = min(gl_SubgroupSize, faces - first);
+        for (uint f = 0u; f < count && !hidesAllNodes(hidden); ++f) {
+            ReadFace face = faceOfLane(read, f);
+            [[unroll]] for (uint p = 0u; p < 4u; ++p) {
+                vec3 point = panePoint(window, p);
+                hidden.nodes[p] |=
+                    face.isMore ? hiddenByMore(subgroupBroadcast(mine, f), point, column, origin)
+                                : hiddenByFour(face, point, column);
+            }
+        }
+    }
+    return hidden;
+}
+
+// Of the pane's points, by node i.
+float seenShare(Hidden hidden, uint i) {
+    uvec4 bits = (hidden.nodes >> i) & 1u;
+    return 1.0 - 0.25 * float(int(bits.x + bits.y + bits.z + bits.w));
+}
+
+// The same where an entry has more faces than it could list.
+float seenThroughMany(Hidden hidden, FarWindow window, vec3 place, uint i, vec3 origin) {
+    for (uint p = 0u; p < 4u; ++p) {
+        if (isHiddenByAny(panePoint(window, p), place, origin)) {
+            hidden.nodes[p] |= 1u << i;
+        }
+    }
+    return seenShare(hidden, i);
+}
+
+// A window that is far enough to be a point with a second-order term, through one haze, with
+// all faces listed.
+bool isQuick(FarWindow window, FarFieldTable field) {
+    vec3 gap = max(abs(window.centre) - 0.5 * field.brickSide, vec3(0.0));
+    return window.extinction >= 0.0 && window.faceCount != kManyFaces && !window.isSphere &&
+           (kFarEmitter != kEmitterPane || dot(gap, gap) > window.exactBelow);
+}
+
+struct QuickColumn {
+    vec3 foot, step;    // of the column in the window's frame, m
+    vec2 secondOrder;   // half sides^2, m^2
+    float extinction;   // 1/m
+    float perDistance;  // of the solid angle and its like: times height / d^3, per watt
+    float inverseRadius;  // 1 / R^2
+};
+
+QuickColumn quickColumn(FarWindow window, Column column, FarFieldTable field) {
+    vec3 way = column.foot - window.centre;
+    QuickColumn quick;
+    quick.foot = vec3(dot(way, window.u), dot(way, window.v), dot(way, window.normal));
+    quick.step = vec3(window.u.z, window.v.z, window.normal.z) * column.spacing;
+    quick.secondOrder = kFarEmitter == kEmitterPane
+                            ? vec2(window.a * window.a, window.b * window.b)
+                            : vec2(0.0);
+    quick.extinction = window.extinction;
+    quick.perDistance = kFarEmitter == kEmitterIsotropic ? 0.5 / kTurn : 2.0 / kTurn;
+    quick.inverseRadius = 1.0 / (field.nearRadius * field.nearRadius);
+    return quick;
+}
+
+// m^-2: far part of the fluence per watt at node i.
+float quickFluence(QuickColumn quick, uint i) {
+    vec3 point = quick.foot + float(i) * quick.step;
+    float squared = dot(point, point);
+    float inverse = 1.0 / squared;
+    float distance = sqrt(squared);
+    float clear = quick.perDistance * inverse;
+    if (kFarEmitter != kEmitterIsotropic) {
+        clear *= max(point.z, 0.0) * inverse * distance;
+    }
+    if (kFarEmitter == kEmitterPane) {
+        vec2 across = 5.0 * point.xy * point.xy * inverse - 1.0;
+        clear *= 1.0 + 0.5 * inverse * dot(quick.secondOrder, across);
+    }
+    return farShare(squared * quick.inverseRadius) * clear * exp(-quick.extinction * distance);
+}
+
+#endif

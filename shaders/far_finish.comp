@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Makes the nodes that frames read from the sums. A node in a solid belongs to the air
+// beside it: its value goes on from there in a straight line, so that the field is
+// as good up to the wall as in the open.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "far_bake.glsl"
+
+layout(local_size_x = kGroupSize) in;
+
+const float kLargestHalf = 65504.0;
+
+bool isSolid(uint brick, uint node) {
+    return (UintArray(bakeTable.sides).at[brick * kBrickSideWords + (node >> 5)] >> (node & 31u) &
+            1u) != 0u;
+}
+
+// Sum of a node in the air, W m^-2; `found` is false in a solid and where no node is.
+vec3 airNode(FarFieldTable field, ivec3 place, out bool found) {
+    ivec3 counts = ivec3(field.brickCounts);
+    found = false;
+    // A node on a face belongs to two bricks, on an edge to four; some may not be there.
+    for (int i = 0; i < 8; ++i) {
+        ivec3 back = ivec3(i, i >> 1, i >> 2) & 1;
+        ivec3 cell = (place - back) >> 3;
+        ivec3 at = place - 8 * cell;
+        uint index = brickAt(field, cell);
+        if (index != kNone && all(lessThanEqual(at, ivec3(8)))) {
+            FarBrick brick = FarBrickArray(field.bricks).at[index];
+            uint node = uint((at.z * 9 + at.y) * 9 + at.x);
+            found = !isSolid(index, node);
+            return vec3(Uvec3Array(bakeTable.sums).at[brick.firstNode + node]) *
+                   FloatArray(bakeTable.units).at[index];
+        }
+    }
+    return vec3(0.0);
+}
+
+// From the two nodes that follow in a direction; 0 and false where the first is no air.
+vec3 goingOn(FarFieldTable field, ivec3 place, ivec3 way, out bool found) {
+    vec3 first = airNode(field, place + way, found);
+    if (!found) {
+        return vec3(0.0);
+    }
+    bool foundSecond;
+    vec3 second = airNode(field, place + 2 * way, foundSecond);
+    return foundSecond ? max(2.0 * first - second, vec3(0.0)) : first;
+}
+
+// The mean over the nearest neighbours in the air: along axes, else in planes, else in space.
+vec3 fromTheAir(FarFieldTable field, ivec3 place) {
+    for (int axes = 1; axes <= 3; ++axes) {
+        vec3 sum = vec3(0.0);
+        float count = 0.0;
+        for (int i = 0; i < 27; ++i) {
+            ivec3 way = ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+            ivec3 size = abs(way);
+            if (size.x + size.y + size.z == axes) {
+                bool found;
+                sum += goingOn(field, place, way, found);
+                count += found ? 1.0 : 0.0;
+            }
+        }
+        if (count > 0.0) {
+            return sum / count;
+        }
+    }
+    return vec3(0.0);
+}
+
+void main() {
+    FarFieldTable field = bakedField;
+    uint index = groupBrick();
+    FarBrick brick = FarBrickArray(field.bricks).at[index];
+    ivec3 first = 8 * ivec3(Uvec3Array(bakeTable.brickCells).at[index]);
+    float unit = FloatArray(bakeTable.units).at[index];
+    for (uint node = gl_LocalInvocationIndex; node < brickNodeCount(brick); node += kGroupSize) {
+        vec3 value = isSolid(index, node)
+                         ? fromTheAir(field, first + ivec3(nodePlace(brick, node)))
+                         : vec3(Uvec3Array(bakeTable.sums).at[brick.firstNode + node]) * unit;
+        value = min(value / field.nodeUnit, vec3(kLargestHalf));
+        FarNodeArray(field.nodes).at[brick.firstNode + node] =
+            uvec2(packHalf2x16(value.xy), packHalf2x16(vec2(value.z, 0.0)));
+    }
+}

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which nodes of a brick lie in the air and which in a solid: below the ground, or where
+// the first face above is seen from behind.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "far_bake.glsl"
+#include "convex_face.glsl"
+#include "occluders.glsl"
+
+layout(local_size_x = kGroupSize) in;
+
+shared uint solid[kBrickSideWords];
+shared uint wholeBrick;
+
+// Not quite upward, so that it meets no edge of walls that stand on a street grid.
+const vec3 kUpward = vec3(0.00137, 0.00171, 1.0);
+const uint kUndecided = 2u;
+
+bool isInSolid(vec3 place) {
+    if (sceneTable.groundMaterial != kNone && place.z < sceneTable.groundHeight) {
+        return true;
+    }
+    if (sceneTable.occluderNodes == uvec2(0) || place.z >= bakeTable.skyHeight) {
+        return false;
+    }
+    vec3 up = (bakeTable.skyHeight - place.z) * kUpward;
+    Between between = betweenBoxAndStretch(place, vec3(0.0), up, up);
+    float nearest = 2.0;
+    bool fromBehind = false;
+    uint walk = 0u;
+    for (uint index = nextOccluder(walk, between); index != kNone;
+         index = nextOccluder(walk, between)) {
+        OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
+        float crossing = faceCrossing(face, place, vec3(0.0), up);
+        if (crossing >= 0.0 && crossing < nearest) {
+            nearest = crossing;
+            fromBehind = dot(face.normal, up) > 0.0;
+        }
+    }
+    return fromBehind;
+}
+
+// One answer for all of the brick where no face and no ground meets it.
+uint sideOfBrick(vec3 corner, float side) {
+    vec3 halfSides = vec3(0.5 * side);
+    float above = corner.z - sceneTable.groundHeight;
+    if (sceneTable.groundMaterial != kNone && above < 0.0 && above + side >= 0.0) {
+        return kUndecided;
+    }
+    Between between = betweenBoxAndBox(corner + halfSides, halfSides, vec3(0.0), halfSides);
+    uint walk = 0u;
+    if (nextOccluder(walk, between) != kNone) {
+        return kUndecided;
+    }
+    return isInSolid(corner + halfSides) ? 1u : 0u;
+}
+
+void main() {
+    uint thread = gl_LocalInvocationIndex;
+    FarFieldTable field = bakedField;
+    FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
+    vec3 corner = groupBrickCorner(field);
+    if (thread < kBrickSideWords) {
+        solid[thread] = 0u;
+    }
+    if (thread == 0u) {
+        wholeBrick = sideOfBrick(corner, field.brickSide);
+    }
+    barrier();
+    float spacing = brickSpacing(field, brick);
+    for (uint node = thread; node < brickNodeCount(brick); node += kGroupSize) {
+        vec3 place = corner + spacing * vec3(nodePlace(brick, node));
+        bool inside = wholeBrick == kUndecided ? isInSolid(place) : wholeBrick == 1u;
+        if (inside) {
+            atomicOr(solid[node >> 5], 1u << (node & 31u));
+        }
+    }
+    barrier();
+    if (thread < kBrickSideWords) {
+        UintArray(bakeTable.sides).at[groupBrick() * kBrickSideWords + thread] = solid[thread];
+    }
+}

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Adds the windows of a batch's entries to the nodes of their brick, one upright column of
+// nodes a thread. Sums are integers, so that their order does not matter, and what a window
+// brought is taken away to the bit.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+
+#include "far_column.glsl"
+
+layout(local_size_x = kColumnThreads) in;
+
+// W m^-2 per unit of the brick: of the new state of a window, less the old.
+uvec3 inUnits(float perWatt, vec3 emission, vec3 baked) {
+    // Below 2^31: a signed conversion is one instruction where an unsigned one is many.
+    uvec3 sum = uvec3(ivec3(perWatt * emission + 0.5));
+    return bakeTable.update == 0u ? sum : sum - uvec3(ivec3(perWatt * baked + 0.5));
+}
+
+void main() {
+    FarFieldTable field = bakedField;
+    FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
+    uint side = (kBrickCells >> brick.level) + 1u;
+    uint thread = min(gl_LocalInvocationIndex, side * side - 1u);
+    vec3 origin = groupBrickCorner(field) + 0.5 * field.brickSide;
+    Column column;
+    column.spacing = brickSpacing(field, brick);
+    column.foot = column.spacing * vec3(thread % side, thread / side, 0u) - 0.5 * field.brickSide;
+    float perUnit = 1.0 / FloatArray(bakeTable.units).at[groupBrick()];
+    uint firstEntry = groupInBatch() * bakeTable.entryCapacity;
+    uint entries = UintArray(bakeTable.entryCounts).at[groupInBatch()];
+    Uvec3Array sums = Uvec3Array(bakeTable.sums);
+    uint firstNode = brick.firstNode + thread;
+    bool isThere = thread == gl_LocalInvocationIndex;
+
+    uvec3 sum[kColumnNodes];
+    [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+        sum[i] = uvec3(0u);
+    }
+    for (uint first = 0u; first < entries; first += gl_SubgroupSize) {
+        uint count = min(gl_SubgroupSize, entries - first);
+        uint mine = firstEntry + first + min(gl_SubgroupInvocationID, count - 1u);
+        FarWindow read = farWindow(mine, origin, field);
+        uint light = FarEntryArray(bakeTable.entries).at[mine].light;
+        vec3 readEmission = Vec3Array(bakeTable.emission).at[light] * perUnit;
+        vec3 readBaked = Vec3Array(bakeTable.baked).at[light] * perUnit;
+        for (uint e = 0u; e < count; ++e) {
+            FarWindow window = windowOfLane(read, e);
+            Hidden hidden = hiddenFromColumn(firstEntry + first + e, window, column, origin);
+            if (hidesAllNodes(hidden)) {
+                continue;
+            }
+            vec3 emission = subgroupBroadcast(readEmission, e);
+            vec3 baked = subgroupBroadcast(readBaked, e);
+            if (isQuick(window, field)) {
+                QuickColumn quick = quickColumn(window, column, field);
+                [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+                    sum[i] +=
+                        inUnits(seenShare(hidden, i) * quickFluence(quick, i), emission, baked);
+                }
+                continue;
+            }
+            [[dont_unroll]] for (uint i = 0u; isThere && i < side; ++i) {
+                vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
+                float seen = window.faceCount == kManyFaces
+                                 ? seenThroughMany(hidden, window, place, i, origin)
+                                 : seenShare(hidden, i);
+                if (seen > 0.0) {
+                    float perWatt = seen * farFluencePerWatt(window, origin, place, field);
+                    sums.at[firstNode + i * side * side] += inUnits(perWatt, emission, baked);
+                }
+            }
+        }
+    }
+    [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+        if (isThere && i < side) {
+            sums.at[firstNode + i * side * side] += sum[i];
+        }
+    }
+}

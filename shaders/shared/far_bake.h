@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the host and the passes of the bake of the far field (far_field.h) agree on. An
+// address is a uvec2: low word, high word.
+#ifndef NIGHTCITY_SHADERS_FAR_BAKE_H
+#define NIGHTCITY_SHADERS_FAR_BAKE_H
+
+#include "far_field.h"
+
+NIGHTCITY_BEGIN
+
+// Specialization constants of far_sight.comp and far_sum.comp: the model.
+#define NIGHTCITY_CONSTANT_FAR_EMITTER 0     // kEmitterIsotropic and so on
+#define NIGHTCITY_CONSTANT_FAR_VISIBILITY 1  // 1: opaque surfaces hide windows
+
+NIGHTCITY_CONST uint kBrickNodes = (kBrickCells + 1u) * (kBrickCells + 1u) * (kBrickCells + 1u);
+NIGHTCITY_CONST uint kBrickSideWords = (kBrickNodes + 31u) / 32u;
+NIGHTCITY_CONST uint kColumnThreads = 96u;  // at least the columns of a brick
+NIGHTCITY_CONST uint kFarStack = 6144u;     // lights that a group keeps for later, most
+NIGHTCITY_CONST uint kFarFaces = 29u;       // of one entry
+NIGHTCITY_CONST uint kManyFaces = 0xffu;    // more: each node walks the tree of occluders
+
+// A node of the tree over all windows, lit or not. The first child of an inner node follows it.
+struct FarLight {
+    vec3 centre;    // m, of the bounds of its panes
+    uint second;    // the second child; 0: a window
+    vec3 reach;     // m, half sides of the bounds
+    uint window;    // into Window; of an inner node one of its windows
+    vec3 axis;      // unit vector, the mean of the normals
+    float coneCos;  // of the half angle about `axis` that holds every normal; -1: all directions
+    float power;    // W, of the strongest channel with all windows on
+    uint medium;    // the one that holds the bounds, into FarMedium; kNone: no single one does
+};
+
+// A window that may light a brick, and what may stand between.
+struct FarEntry {
+    uint light;
+    uint medium;     // that fills all of the way; kNone: ask the media
+    uint faceCount;  // or kManyFaces
+    uint face[kFarFaces];
+};
+
+struct FarBakeTable {
+    uvec2 field;        // FarFieldTable
+    uvec2 lights;       // FarLight
+    uvec2 roots;        // uint into the lights: together they hold every window
+    uvec2 emission;     // vec3 a light, W: of the windows that are on
+    uvec2 baked;        // vec3 a light, W: what the sums hold so far
+    uvec2 changed;      // uint, bit i & 31 of word i >> 5: of light i the two differ somewhere
+    uvec2 mediaNodes;   // BoxNode over the media; 0: none
+    uvec2 sides;        // uint, kBrickSideWords a brick: bit n is 1 where node n is in a solid
+    uvec2 sums;         // uvec3 a node, in the unit of its brick
+    uvec2 units;        // float a brick, W m^-2: a power of two
+    uvec2 entries;      // FarEntry, entryCapacity a brick of the batch
+    uvec2 entryCounts;  // uint a brick of the batch: may be more than there is room for
+    uvec2 brickCells;   // uvec3 a brick: its cell of the lattice
+    uint lightCount;
+    uint rootCount;
+    uint entryCapacity;
+    uint update;        // 1: only windows that changed; the units stay
+    float skyHeight;    // m, above all that is opaque
+    float boundUnit;    // W m^-2, of the sums of bounds
+};
+
+NIGHTCITY_END
+
+#endif

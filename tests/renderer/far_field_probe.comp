@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reads the far field at given places, one a thread; -1 where there is no brick.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "far_field.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 0, scalar) readonly buffer Places {
+    vec3 places[];
+};
+layout(set = 0, binding = 1, scalar) writeonly buffer Answers {
+    vec3 answers[];
+};
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= places.length()) {
+        return;
+    }
+    FarFieldTable field = farFieldTable;
+    vec3 cell = (places[index] - field.origin) / field.brickSide;
+    uint brick = brickAt(field, ivec3(floor(cell)));
+    answers[index] =
+        brick == kNone ? vec3(-1.0)
+                       : farFluence(field, FarBrickArray(field.bricks).at[brick], fract(cell));
+}

@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The baked far field against the judge, at points: what a node cell makes of the fluence,
+// walls, media, states of the windows.
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "errors.h"
+#include "far_field_device.h"
+#include "passes/far_media.h"
+#include "scene_builder.h"
+
+namespace nightcity {
+namespace {
+
+// Of the test program: a device takes long to open.
+FarFieldOnDevice& device() {
+    static FarFieldOnDevice onDevice(true);
+    return onDevice;
+}
+
+FarFieldSettings spaced(float spacing) {
+    FarFieldSettings settings;
+    settings.spacing = spacing;
+    settings.nearRadius = 4 * spacing;
+    return settings;
+}
+
+// Of the far part, over all of the fluence or 1 % of its median.
+struct Errors {
+    double p50 = 0, p95 = 0, bias = 0;
+};
+
+double quantile(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    return values.at(std::size_t(share * double(values.size() - 1)));
+}
+
+Errors errorsAt(const FlatScene& scene, const FarFieldSettings& settings,
+                const std::vector<glm::vec3>& places) {
+    const std::vector<glm::vec3> found = device().fluence(places);
+    const std::vector<glm::dvec3> far = judgedFarFluence(scene, settings, places, 1e-3);
+    const std::vector<glm::dvec3> all = judgedFluence(scene, settings, places, 1e-3);
+    std::vector<double> total, errors;
+    for (const glm::dvec3& value : all) {
+        total.push_back(value.y);
+    }
+    const double floor = 0.01 * quantile(total, 0.5);
+    Errors result;
+    double sum = 0, truth = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const double error = double(found[i].y) - far[i].y;
+        errors.push_back(std::abs(error) / std::max(floor, all[i].y));
+        sum += error;
+        truth += all[i].y;
+    }
+    return {quantile(errors, 0.5), quantile(errors, 0.95), sum / truth};
+}
+
+Errors bakeAndCompare(const FlatScene& scene, const FarFieldSettings& settings,
+                      std::size_t places = 200) {
+    device().sync(scene, settings);
+    return errorsAt(scene, settings, placesInTheAir(scene, places, 3));
+}
+
+// The same, at nodes: no interpolation is in the way. `lo`: of the media.
+Errors bakeAndCompareNodes(const FlatScene& scene, const FarFieldSettings& settings, vec3 lo) {
+    std::vector<glm::vec3> places = placesInTheAir(scene, 200, 3);
+    const float spacing = settings.spacing;
+    for (glm::vec3& place : places) {  // nodes are half a spacing off the corner
+        place = lo + (glm::floor((place - lo) / spacing) + 0.5f) * spacing;
+    }
+    device().sync(scene, settings);
+    return errorsAt(scene, settings, places);
+}
+
+struct Case {
+    Emitter emitter;
+    double p95;  // of what interpolation leaves: point sources have hard shadow edges
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << (c.emitter == Emitter::isotropic    ? "isotropic"
+             : c.emitter == Emitter::lambertian ? "lambertian"
+                                                : "pane");
+}
+
+class FarFieldEmitters : public testing::TestWithParam<Case> {
+protected:
+    FarFieldEmitters() { settings_.emitter = GetParam().emitter; }
+
+    FlatScene scene_ = paperCity(1).load();
+    FarFieldSettings settings_ = spaced(0.5f);
+};
+
+// For point emitters nothing is left but rounding.
+TEST_P(FarFieldEmitters, AreExactAtTheNodes) {
+    const Errors errors = bakeAndCompareNodes(scene_, settings_, {-15, -15, 0});
+    const bool pane = GetParam().emitter == Emitter::pane;
+    EXPECT_LT(errors.p50, pane ? 5e-4 : 3e-4);
+    EXPECT_LT(errors.p95, pane ? 5e-3 : 6e-4);
+    EXPECT_LT(std::abs(errors.bias), pane ? 1e-3 : 3e-4);
+}
+
+TEST_P(FarFieldEmitters, AgreeWithTheJudge) {
+    const Errors errors = bakeAndCompare(scene_, settings_);
+    EXPECT_LT(errors.p50, 0.003);
+    EXPECT_LT(errors.p95, GetParam().p95);
+    EXPECT_LT(std::abs(errors.bias), 0.005);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, FarFieldEmitters,
+                         testing::Values(Case{Emitter::pane, 0.02},
+                                         Case{Emitter::lambertian, 0.05},
+                                         Case{Emitter::isotropic, 0.06}));
+
+TEST(FarField, HalfTheSpacingIsAQuarterOfTheErrorInTheOpen) {
+    SceneBuilder city;
+    city.addMaterial(vec3(0.5f));
+    for (int i = 0; i < 5; ++i) {
+        city.addWindow({4 * float(i) - 8, 0, 10}, {-0.6f, 0, 0}, {0, 0, 0.75f}, 50, vec3(1), false);
+    }
+    city.addMediaBox({-20, 0.02f, 0}, {20, 40, 30}, 0.02f, 0.9f, {0, 1, 2, 3, 4});
+    city.addCamera("camera", {0, -90, 30}, {0, 0, 0}, 40);
+    const FlatScene scene = city.load();
+    FarFieldSettings coarse = spaced(2), fine = spaced(1);
+    coarse.nearRadius = fine.nearRadius = 8;
+    const Errors before = bakeAndCompare(scene, coarse), after = bakeAndCompare(scene, fine);
+    EXPECT_LT(after.p50, 0.35 * before.p50);
+    EXPECT_LT(after.p95, 0.35 * before.p95);
+}
+
+// Four walls of 4 m about a yard of 12 x 12 m, windows on their outsides only.
+SceneBuilder courtyard() {
+    SceneBuilder city;
+    const uint wall = city.addMaterial(vec3(0.5f));
+    city.ground = GroundPlane{0, wall};
+    city.addBoxBuilding({-10, -10, 0}, {10, -6, 30}, wall);
+    city.addWindow({0, -10.01f, 8}, {0.6f, 0, 0}, {0, 0, 0.75f});
+    city.addBoxBuilding({-10, 6, 0}, {10, 10, 30}, wall);
+    city.addWindow({0, 10.01f, 8}, {-0.6f, 0, 0}, {0, 0, 0.75f});
+    city.addBoxBuilding({-10, -6, 0}, {-6, 6, 30}, wall);
+    city.addWindow({-10.01f, 0, 8}, {0, -0.6f, 0}, {0, 0, 0.75f});
+    city.addBoxBuilding({6, -6, 0}, {10, 6, 30}, wall);
+    city.addWindow({10.01f, 0, 8}, {0, 0.6f, 0}, {0, 0, 0.75f});
+    city.addMediaBox({-30, -30, 0}, {30, -10, 30}, 0.02f, 0.9f, {0});
+    city.addMediaBox({-30, 10, 0}, {30, 30, 30}, 0.02f, 0.9f, {1});
+    city.addMediaBox({-6, -6, 0}, {6, 6, 30}, 0.02f, 0.9f);
+    city.addCamera("camera", {0, -90, 30}, {0, 0, 0}, 40);
+    return city;
+}
+
+TEST(FarField, IsZeroInACourtyardClosedByWalls) {
+    const FlatScene scene = courtyard().load();
+    device().sync(scene, spaced(0.7f));
+    std::vector<glm::vec3> inside, outside;
+    for (int i = 0; i < 200; ++i) {
+        const float x = -5.999f + 11.998f * float(i % 15) / 14;
+        inside.emplace_back(x, -5.999f + 11.998f * float(i / 15) / 14, 0.01f + 29.9f * float(i) / 199);
+        outside.emplace_back(2 * x, -10.02f - float(i % 7), 8);
+    }
+    for (const glm::vec3& value : device().fluence(inside)) {
+        EXPECT_EQ(value, glm::vec3(0));
+    }
+    for (const glm::vec3& value : device().fluence(outside)) {
+        EXPECT_GT(value.y, 0);
+    }
+}
+
+class FarFieldStates : public testing::Test {
+protected:
+    FarFieldStates() : scene_(paperCity(1).load()) {}
+
+    std::vector<glm::uvec2> bakedAfresh(const std::vector<std::uint8_t>& on) {
+        device().sync(scene_, settings_);  // of all windows
+        FarFieldSettings other = settings_;
+        other.spacing = 3;  // forgets
+        device().sync(scene_, other);
+        device().sync(scene_, settings_, on);
+        return device().nodes();
+    }
+
+    FlatScene scene_;
+    FarFieldSettings settings_ = spaced(1);
+};
+
+TEST_F(FarFieldStates, AToggledStateEqualsAFreshBakeToTheBit) {
+    std::vector<std::uint8_t> some(scene_.windows.size(), 0), none = some, most = some;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        some[i] = i % 3 == 0;
+        most[i] = i % 7 != 0;
+    }
+    const auto freshSome = bakedAfresh(some), freshMost = bakedAfresh(most);
+    EXPECT_NE(freshSome, freshMost);
+    device().setWindows(scene_, some);
+    EXPECT_EQ(device().nodes(), freshSome);
+    device().setWindows(scene_, none);
+    for (const glm::uvec2& node : device().nodes()) {
+        ASSERT_EQ(node, glm::uvec2(0));
+    }
+    device().setWindows(scene_, most);
+    EXPECT_EQ(device().nodes(), freshMost);
+}
+
+// Two windows of equal power, one on and one off, change places: the sums of the tree above
+// them stay the same.
+TEST_F(FarFieldStates, ASwapOfTwoWindowsIsSeen) {
+    std::vector<std::uint8_t> one(scene_.windows.size(), 0), other = one;
+    one[0] = other[3] = 1;
+    const auto fresh = bakedAfresh(other);
+    device().setWindows(scene_, one);
+    device().setWindows(scene_, other);
+    EXPECT_EQ(device().nodes(), fresh);
+}
+
+TEST_F(FarFieldStates, TheOrderOfTheWindowsDoesNotMatter) {
+    SceneBuilder city = paperCity(1);
+    std::reverse(city.windows.begin(), city.windows.end());
+    for (MediaBox& box : city.mediaBoxes) {
+        box.firstLight = box.lightCount = 0;
+    }
+    city.lightList.clear();
+    device().sync(scene_, settings_);
+    const auto nodes = device().nodes();
+    device().sync(city.load(), settings_);
+    EXPECT_EQ(device().nodes(), nodes);
+}
+
+TEST(FarField, IntegratesThroughDifferentMedia) {
+    SceneBuilder city = paperCity(1);
+    for (std::size_t i = 0; i < city.mediaBoxes.size(); i += 2) {
+        city.mediaBoxes[i].extinction = 0.05f;
+    }
+    const Errors errors = bakeAndCompareNodes(city.load(), spaced(0.5f), {-15, -15, 0});
+    EXPECT_LT(errors.p50, 5e-4);
+    EXPECT_LT(errors.p95, 5e-3);
+}
+
+// A roof of triangles that no axis knows, a wall that is turned.
+SceneBuilder meshTown() {
+    SceneBuilder city;
+    const uint wall = city.addMaterial(vec3(0.5f));
+    city.ground = GroundPlane{0, wall};
+    const vec3 base[4] = {{-6, -3, 0}, {4, -6, 0}, {7, 4, 0}, {-3, 7, 0}};
+    for (const float z : {0.0f, 9.0f}) {
+        for (const vec3 corner : base) {
+            city.positions.push_back(corner + vec3(0, 0, z));
+        }
+    }
+    city.positions.push_back({0.5f, 0.5f, 14});
+    for (uint i = 0; i < 4; ++i) {
+        const uint next = (i + 1) % 4;
+        city.triangles.push_back({{i, next, next + 4}, wall});
+        city.triangles.push_back({{i, next + 4, i + 4}, wall});
+        city.triangles.push_back({{i + 4, next + 4, 8}, wall});
+    }
+    city.triangles.push_back({{0, 3, 2}, wall});
+    city.triangles.push_back({{0, 2, 1}, wall});
+    city.buildings.push_back({0, 14, 0, 0, 1});
+    const vec3 along = glm::normalize(base[1] - base[0]), out(along.y, -along.x, 0);
+    city.addWindow(0.5f * (base[0] + base[1]) + 0.01f * out + vec3(0, 0, 5), 0.6f * along,
+                   {0, 0, 0.75f});
+    city.addBoxBuilding({-8, -20, 0}, {8, -14, 12}, wall);
+    city.addWindow({0, -13.99f, 6}, {-0.6f, 0, 0}, {0, 0, 0.75f});
+    city.addMediaBox({-20, -25, 0}, {20, 15, 20}, 0.02f, 0.9f, {0, 1});
+    city.addCamera("camera", {0, -90, 30}, {0, 0, 0}, 40);
+    return city;
+}
+
+TEST(FarField, KnowsMeshBuildings) {
+    FarFieldSettings settings = spaced(0.5f);
+    settings.emitter = Emitter::lambertian;
+    const Errors errors = bakeAndCompareNodes(meshTown().load(), settings, {-20, -25, 0});
+    EXPECT_LT(errors.p50, 3e-4);
+    EXPECT_LT(errors.p95, 6e-4);
+}
+
+TEST(FarField, IsTheSameTenKilometresAway) {
+    SceneBuilder near = meshTown(), away = near;
+    const vec3 offset(10240, -10240, 0);
+    const auto move = [&](vec3& place) { place += offset; };
+    std::for_each(away.positions.begin(), away.positions.end(), move);
+    for (Window& window : away.windows) {
+        move(window.centre);
+    }
+    for (MediaBox& box : away.mediaBoxes) {
+        move(box.lo);
+        move(box.hi);
+    }
+    const FlatScene here = near.load();
+    std::vector<glm::vec3> places = placesInTheAir(here, 200, 4);
+    device().sync(here, spaced(1));
+    const std::vector<glm::vec3> expected = device().fluence(places);
+    device().sync(away.load(), spaced(1));
+    std::for_each(places.begin(), places.end(), move);
+    const std::vector<glm::vec3> found = device().fluence(places);
+    double difference = 0, sum = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        difference += std::abs(double(found[i].y) - double(expected[i].y));
+        sum += double(expected[i].y);
+    }
+    EXPECT_LT(difference, 1e-3 * sum);
+}
+
+TEST(FarField, RefusesWhatDoesNotFitItsMemory) {
+    FarFieldSettings settings = spaced(0.05f);
+    settings.memoryBytes = 100'000'000;
+    try {
+        device().sync(paperCity(1).load(), settings);
+        FAIL();
+    } catch (const DeviceError& error) {
+        EXPECT_NE(std::string(error.what()).find("far field takes"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("100 MB"), std::string::npos);
+    }
+}
+
+TEST(FarField, IsDarkWithoutWindowsAndAbsentWithoutMedia) {
+    SceneBuilder dark = paperCity(1);
+    for (Window& window : dark.windows) {
+        window.power = 0;
+    }
+    device().sync(dark.load(), spaced(2));
+    const std::vector<glm::vec3> places{{0, -12, 5}, {12, 3, 20}};
+    for (const glm::vec3& value : device().fluence(places)) {
+        EXPECT_EQ(value, glm::vec3(0));
+    }
+    SceneBuilder clear = paperCity(1);
+    clear.mediaBoxes.clear();
+    clear.lightList.clear();
+    device().sync(clear.load(), spaced(2));
+    for (const glm::vec3& value : device().fluence(places)) {
+        EXPECT_EQ(value, glm::vec3(-1));
+    }
+}
+
+TEST(FarMedia, ThePapersBoxesAreOne) {
+    const std::vector<FarMedium> media = mergeMedia(paperCity(2).load());
+    ASSERT_EQ(media.size(), 1u);
+    EXPECT_EQ(media[0].lo, vec3(-25, -25, 0));
+    EXPECT_EQ(media[0].hi, vec3(25, 25, 30));
+}
+
+TEST(FarMedia, DifferentMediaStayApart) {
+    SceneBuilder city = paperCity(1);
+    city.mediaBoxes[4].extinction = 0.05f;
+    double volume = 0;
+    for (const FarMedium& medium : mergeMedia(city.load())) {
+        const vec3 size = medium.hi - medium.lo;
+        volume += double(size.x) * double(size.y) * double(size.z);
+        EXPECT_EQ(medium.extinction == 0.05f, medium.lo == city.mediaBoxes[4].lo &&
+                                                  medium.hi == city.mediaBoxes[4].hi);
+    }
+    EXPECT_NEAR(volume, 8 * 3000, 1e-6);
+}
+
+}  // namespace
+}  // namespace nightcity
