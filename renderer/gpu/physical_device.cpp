@@ -107,9 +107,19 @@ void queryQueue(DeviceDescription& description) {
     }
 }
 
+bool hasSubgroupBallot(const VkPhysicalDeviceSubgroupProperties& subgroup) {
+    constexpr VkSubgroupFeatureFlags kNeeded =
+        VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT;
+    return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+           (subgroup.supportedOperations & kNeeded) == kNeeded;
+}
+
 DeviceDescription describe(VkPhysicalDevice device) {
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceSubgroupProperties subgroup{};
+    subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    driver.pNext = &subgroup;
     VkPhysicalDeviceProperties2 properties{};
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     vkGetPhysicalDeviceProperties(device, &properties.properties);
@@ -120,6 +130,7 @@ DeviceDescription describe(VkPhysicalDevice device) {
         properties.pNext = &driver;
         vkGetPhysicalDeviceProperties2(device, &properties);
         description.features = queryFeatures(device);
+        description.features.subgroupBallot = hasSubgroupBallot(subgroup);
     }
     description.name = properties.properties.deviceName;
     description.driver = std::string(driver.driverName) + " " + driver.driverInfo;
@@ -194,6 +205,7 @@ std::vector<std::string> DeviceDescription::missing() const {
          "accelerationStructure");
     need(features.bufferDeviceAddress, "bufferDeviceAddress");
     need(features.scalarBlockLayout, "scalarBlockLayout");
+    need(features.subgroupBallot, "subgroup ballots and votes in compute shaders");
     need(features.uniformArrayDynamicIndexing, "shaderUniformBufferArrayDynamicIndexing");
     need(features.uniformArrayNonUniformIndexing, "shaderUniformBufferArrayNonUniformIndexing");
     need(features.storageArrayDynamicIndexing, "shaderStorageBufferArrayDynamicIndexing");

@@ -102,7 +102,8 @@ void FarFieldGrid::uploadLayout(std::span<const FarMedium> media) {
     bake_.sides = allocate("far sides", layout_.bricks.size() * kBrickSideWords * 4);
     units_ = gpu::ReadableBuffer(device_, "far units", layout_.bricks.size() * 4);
     bake_.units = addressWords(units_.buffer().address());
-    sums_ = gpu::Buffer(device_, "far sums", layout_.nodes * sizeof(uvec3), gpu::MemoryKind::device);
+    sums_ = gpu::Buffer(device_, "far sums", layout_.nodes * sizeof(uvec3),
+                        gpu::MemoryKind::device);
     bake_.sums = addressWords(sums_.address());
     if (!media.empty()) {
         std::vector<Bounds> bounds;
@@ -129,8 +130,8 @@ void FarFieldGrid::uploadLights() {
     bake_.changed = addressWords(changed_.address());
     // The largest that one window brings anywhere (far_sight.comp), in 2^18 parts: so the
     // bounds of 2^14 windows at arm's length still fit.
-    const double largest = 8.0 * double(lights_.strongest) /
-                           (std::numbers::pi * double(settings_.nearRadius) * double(settings_.nearRadius));
+    const double radius = settings_.nearRadius;
+    const double largest = 8.0 * double(lights_.strongest) / (std::numbers::pi * radius * radius);
     bake_.boundUnit = float(std::max(largest, 1e-30) / 262144.0);
     makeEntryBuffers(kFirstCapacity);
 }

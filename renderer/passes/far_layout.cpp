@@ -34,8 +34,10 @@ struct CellRange {
 };
 
 CellRange cellsOf(const FarLayout& layout, const FarMedium& medium) {
-    const glm::dvec3 lo = (glm::dvec3(medium.lo) - glm::dvec3(layout.origin)) / double(layout.brickSide);
-    const glm::dvec3 hi = (glm::dvec3(medium.hi) - glm::dvec3(layout.origin)) / double(layout.brickSide);
+    const glm::dvec3 origin(layout.origin);
+    const double side = layout.brickSide;
+    const glm::dvec3 lo = (glm::dvec3(medium.lo) - origin) / side;
+    const glm::dvec3 hi = (glm::dvec3(medium.hi) - origin) / side;
     const glm::dvec3 most = glm::dvec3(layout.counts) - 1.0;
     return {uvec3(glm::clamp(glm::floor(lo), glm::dvec3(0), most)),
             uvec3(glm::clamp(glm::ceil(hi) - 1.0, glm::dvec3(0), most))};

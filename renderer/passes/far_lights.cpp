@@ -26,12 +26,16 @@ struct FarEmitter {
 FarEmitter emitterOf(const Window& window, uint index, Emitter model) {
     const bool sphere = (window.flags & kWindowSphere) != 0;
     const vec3 colour = window.colour;
-    return {window.centre,
-            sphere ? vec3(glm::length(window.halfU)) : glm::abs(window.halfU) + glm::abs(window.halfV),
-            sphere || model == Emitter::isotropic
-                ? vec3(0)
-                : glm::normalize(glm::cross(window.halfU, window.halfV)),
-            window.power * std::max({colour.x, colour.y, colour.z}), index};
+    FarEmitter emitter{};
+    emitter.centre = window.centre;
+    emitter.reach = sphere ? vec3(glm::length(window.halfU))
+                           : glm::abs(window.halfU) + glm::abs(window.halfV);
+    if (!sphere && model != Emitter::isotropic) {
+        emitter.normal = glm::normalize(glm::cross(window.halfU, window.halfV));
+    }
+    emitter.power = window.power * std::max({colour.x, colour.y, colour.z});
+    emitter.window = index;
+    return emitter;
 }
 
 class TreeBuilder {

@@ -42,7 +42,8 @@ std::optional<std::pair<vec3, vec3>> solidBox(const FlatScene& scene, const Buil
         const vec3 a = scene.positions[triangle.vertex.x];
         const vec3 b = scene.positions[triangle.vertex.y];
         const vec3 c = scene.positions[triangle.vertex.z];
-        const glm::dvec3 normal = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+        const glm::dvec3 origin(a);
+        const glm::dvec3 normal = glm::cross(glm::dvec3(b) - origin, glm::dvec3(c) - origin);
         for (int axis = 0; axis < 3; ++axis) {
             if (a[axis] == b[axis] && b[axis] == c[axis]) {
                 if (a[axis] == lo[axis]) {

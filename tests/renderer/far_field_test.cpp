@@ -160,7 +160,8 @@ TEST(FarField, IsZeroInACourtyardClosedByWalls) {
     std::vector<glm::vec3> inside, outside;
     for (int i = 0; i < 200; ++i) {
         const float x = -5.999f + 11.998f * float(i % 15) / 14;
-        inside.emplace_back(x, -5.999f + 11.998f * float(i / 15) / 14, 0.01f + 29.9f * float(i) / 199);
+        const float y = -5.999f + 11.998f * float(i / 15) / 14;
+        inside.emplace_back(x, y, 0.01f + 29.9f * float(i) / 199);
         outside.emplace_back(2 * x, -10.02f - float(i % 7), 8);
     }
     for (const glm::vec3& value : device().fluence(inside)) {

@@ -34,6 +34,7 @@ DeviceDescription device(const std::string& name, VkPhysicalDeviceType type) {
     features.rayQuery = true;
     features.bufferDeviceAddress = true;
     features.scalarBlockLayout = true;
+    features.subgroupBallot = true;
     features.uniformArrayDynamicIndexing = true;
     features.uniformArrayNonUniformIndexing = true;
     features.storageArrayDynamicIndexing = true;
@@ -104,6 +105,7 @@ TEST(DeviceChoice, NamesEveryFeatureThatIsMissing) {
         &DeviceFeatures::rayQuery,
         &DeviceFeatures::bufferDeviceAddress,
         &DeviceFeatures::scalarBlockLayout,
+        &DeviceFeatures::subgroupBallot,
         &DeviceFeatures::uniformArrayDynamicIndexing,
         &DeviceFeatures::uniformArrayNonUniformIndexing,
         &DeviceFeatures::storageArrayDynamicIndexing,
