@@ -51,18 +51,33 @@ def agreement(
     Pixels darker than 1 % of the median nonzero truth count in the mean and not one by one: a
     handful of paths that found light says nothing of its own noise.
     """
-    floor = FLOOR_SHARE * float(np.median(truth[truth > 0]))
-    bright = truth >= floor
-    distance = np.abs(value - truth)[bright]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        sigmas = np.where(distance > 0, distance / error[bright], 0.0)
+    sigmas = _sigmas(value, error, truth)
     return Agreement(
         pixels=len(truth),
         ratio=float(value.sum() / truth.sum()),
         ratio_error=float(np.sqrt(np.sum(error**2)) / truth.sum()),
-        worst=float(sigmas.max()),
-        bound=sidak_bound(int(bright.sum())),
+        worst=float(np.nanmax(sigmas)),
+        bound=sidak_bound(int(np.sum(~np.isnan(sigmas)))),
     )
+
+
+def beyond_bound(
+    value: NDArray[np.float64], error: NDArray[np.float64], truth: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Which of the (N,) pixels lie farther from the truth than Sidak's bound allows."""
+    sigmas = _sigmas(value, error, truth)
+    return sigmas > sidak_bound(int(np.sum(~np.isnan(sigmas))))
+
+
+def _sigmas(
+    value: NDArray[np.float64], error: NDArray[np.float64], truth: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Distances (N,) from the truth in standard errors; NaN where a pixel is too dark to count."""
+    floor = FLOOR_SHARE * float(np.median(truth[truth > 0]))
+    distance = np.abs(value - truth)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        sigmas = np.where(distance > 0, distance / error, 0.0)
+    return np.where(truth >= floor, sigmas, np.nan)
 
 
 def sidak_bound(count: int) -> float:

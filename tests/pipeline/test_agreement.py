@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from nightcity.chart.agreement import agreement, sidak_bound
+from nightcity.chart.agreement import agreement, beyond_bound, sidak_bound
 
 
 def test_by_hand() -> None:
@@ -45,6 +45,7 @@ def test_one_wrong_pixel_is_found() -> None:
     value, error, truth = normal_estimates(4, 0.02)
     value[7] += 7 * error[7]
     assert agreement(value, error, truth).faults == ["a pixel beyond the bound"]
+    assert list(np.flatnonzero(beyond_bound(value, error, truth))) == [7]
 
 
 def test_noise_that_says_little_is_refused() -> None:
