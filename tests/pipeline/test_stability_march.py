@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where the march breaks and by how much, and that the judge does not."""
+
+from __future__ import annotations
+
+import pytest
+from stability_suite import check, sweeps_of
+
+from nightcity.chart.stability.lab import Lab
+from nightcity.chart.stability.sweep import Sweep
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
+    return Lab(tmp_path_factory.mktemp("lab"))
+
+
+@pytest.mark.parametrize("sweep", sweeps_of("march"), ids=lambda sweep: sweep.name)
+def test_march(sweep: Sweep, lab: Lab) -> None:
+    check(sweep, lab, "march")
+
+
+@pytest.mark.parametrize("sweep", sweeps_of("reference"), ids=lambda sweep: sweep.name)
+def test_reference(sweep: Sweep, lab: Lab) -> None:
+    check(sweep, lab, "reference")
