@@ -19,17 +19,32 @@ def whole_file(target: Path) -> Iterator[Path]:
     ``.NAME.PID.part``, and a lock on it says that its writer lives: what killed writers of the
     same target left is removed. The renderer keeps the same rules (renderer/output/whole_file.h).
     """
-    target.parent.mkdir(parents=True, exist_ok=True)
-    _remove_abandoned(target)
-    pending = target.with_name(f".{target.name}.{os.getpid()}.part")
-    file = _open_locked(pending)
-    try:
+    with whole_files(target) as (pending,):
         yield pending
-        os.fsync(file)
-        os.replace(pending, target)
+
+
+@contextlib.contextmanager
+def whole_files(*targets: Path) -> Iterator[list[Path]]:
+    """As `whole_file`, for files that belong together. The last one says that the others are
+    there: it goes away before they change, and comes when they have."""
+    pending = [t.with_name(f".{t.name}.{os.getpid()}.part") for t in targets]
+    files: list[int] = []
+    try:
+        for target, path in zip(targets, pending, strict=True):
+            target.parent.mkdir(parents=True, exist_ok=True)
+            _remove_abandoned(target)
+            files.append(_open_locked(path))
+        yield pending
+        for file in files:
+            os.fsync(file)
+        if len(targets) > 1:
+            targets[-1].unlink(missing_ok=True)
+        for target, path in zip(targets, pending, strict=True):
+            os.replace(path, target)
     finally:
-        pending.unlink(missing_ok=True)
-        os.close(file)
+        for path, file in zip(pending, files, strict=False):
+            path.unlink(missing_ok=True)
+            os.close(file)
 
 
 def _open_locked(pending: Path) -> int:

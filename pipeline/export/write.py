@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from nightcity import __version__
 from nightcity.errors import SceneError
 from nightcity.export.records import ALIGNMENT, FORMAT, RECORDS, VERSION, fields
+from nightcity.whole_file import whole_files
 
 _JSON, _BINARY = "scene.json", "scene.bin"
 
@@ -28,38 +28,34 @@ def write_scene(
     the arrays and the constants. An earlier scene in the folder is replaced only once the new one
     is complete; a failure leaves the earlier one. Raises SceneError where writing fails.
     """
-    temporary = {name: folder / f".{name}.{os.getpid()}.part" for name in (_JSON, _BINARY)}
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        table, binary = _write_binary(temporary[_BINARY], arrays)
-        content = dict(manifest) | {
-            "format": FORMAT,
-            "version": VERSION,
-            "byte_order": "little",
-            "generator": f"nightcity {__version__}",
-            "units": {
-                "length": "m",
-                "power": "W",
-                "extinction": "1/m",
-                "radiance": "W m^-2 sr^-1",
-            },
-            "up_axis": "z",
-            "binary": binary,
-            "arrays": table,
-        }
-        text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False, allow_nan=False)
-        _write_whole(temporary[_JSON], [text.encode() + b"\n"])
         # Without its manifest the folder holds no scene: an interrupted exchange is no mixture.
-        (folder / _JSON).unlink(missing_ok=True)
-        for name in (_BINARY, _JSON):
-            os.replace(temporary[name], folder / name)
+        with whole_files(folder / _BINARY, folder / _JSON) as (binary_file, json_file):
+            table, binary = _write_binary(binary_file, arrays)
+            json_file.write_text(_manifest_text(manifest, table, binary), encoding="utf-8")
     except OSError as error:
         raise SceneError(f"{folder}: the flat scene cannot be written: {error.strerror}") from error
-    finally:
-        for path in temporary.values():
-            if path.parent.is_dir():
-                path.unlink(missing_ok=True)
     return {name: (folder / name).stat().st_size for name in (_JSON, _BINARY)}
+
+
+def _manifest_text(manifest: Mapping[str, object], table: dict, binary: dict) -> str:
+    content = dict(manifest) | {
+        "format": FORMAT,
+        "version": VERSION,
+        "byte_order": "little",
+        "generator": f"nightcity {__version__}",
+        "units": {
+            "length": "m",
+            "power": "W",
+            "extinction": "1/m",
+            "radiance": "W m^-2 sr^-1",
+        },
+        "up_axis": "z",
+        "binary": binary,
+        "arrays": table,
+    }
+    text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False, allow_nan=False)
+    return text + "\n"
 
 
 def _write_binary(path: Path, arrays: Mapping[str, NDArray]) -> tuple[dict, dict]:
@@ -82,13 +78,7 @@ def _write_binary(path: Path, arrays: Mapping[str, NDArray]) -> tuple[dict, dict
         offset += array.nbytes
     for chunk in chunks:
         digest.update(chunk)
-    _write_whole(path, chunks)
-    return table, {"file": _BINARY, "bytes": offset, "hash": digest.hexdigest()}
-
-
-def _write_whole(path: Path, chunks: list) -> None:
     with path.open("wb") as file:
         for chunk in chunks:
             file.write(chunk)
-        file.flush()
-        os.fsync(file.fileno())
+    return table, {"file": _BINARY, "bytes": offset, "hash": digest.hexdigest()}

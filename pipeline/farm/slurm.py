@@ -98,7 +98,7 @@ def _sbatch(
     if before:
         command.append(f"--dependency={condition}:{':'.join(before)}")
     task = ["nightcity", "farm", "task", str(job.template.absolute()), "--step", step.name]
-    task += ["--retries", str(job.retries)]
+    task += ["--retries", str(0 if step.name == CHECK else job.retries)]
     for name, value in job.values.items():
         task += ["-p", f"{name}={value}"]
     number = f'--number "$(({base} + SLURM_ARRAY_TASK_ID))"'
