@@ -20,6 +20,7 @@ from nightcity.whole_file import whole_file
 _MOST_THUMBNAILS = 100
 _SHEET_WIDTH = 1920  # pixels, at most
 _GAP = 4  # pixels between thumbnails
+_BT709, _LIMITED = 1, 1  # H.273: matrix, primaries and transfer; range 16 to 235
 _QUALITY = "18"  # of x264, crf: visually lossless
 
 
@@ -96,13 +97,19 @@ def movie(frames: list[Path], target: Path, scene: Path, exposure: float) -> str
             "libx264", rate=rate, options={"crf": _QUALITY, "threads": "1", "flags": "+bitexact"}
         )
         stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
+        coding = stream.codec_context
+        coding.colorspace = coding.color_primaries = coding.color_trc = _BT709
+        coding.color_range = _LIMITED
         for frame in frames:
             pixels = read_display(frame, exposure)
             if pixels.shape != first.shape:
                 raise SceneError(f"{frame}: is of another size than {frames[0].name}")
             bytes_ = (pixels[:height, :width] * 255 + 0.5).astype(np.uint8)
             picture = av.VideoFrame.from_ndarray(np.ascontiguousarray(bytes_), format="rgb24")
-            container.mux(stream.encode(picture))
+            converted = picture.reformat(
+                format="yuv420p", dst_colorspace=av.video.reformatter.Colorspace.ITU709
+            )
+            container.mux(stream.encode(converted))
         container.mux(stream.encode(None))
     return f"wrote {target}: {len(frames)} frames at {float(rate):g} a second"
 
