@@ -4,11 +4,14 @@
 // The path tracer against the judge (design section 5).
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <ostream>
 
 #include <gtest/gtest.h>
 
 #include "device_frame.h"
+#include "reference/adaptive_quadrature.h"
+#include "reference/ray.h"
 #include "reference/reference_renderer.h"
 
 namespace nightcity {
@@ -194,6 +197,72 @@ TEST_F(PaperPaths, StandardErrorIsHonest) {
         }
     }
     EXPECT_NEAR(squares / count, 1, 0.2);
+}
+
+// Every box of another haze: thick and thin, bright and dark, in turn.
+TEST_F(PaperPaths, AgreeWithTheJudgeInMixedHazes) {
+    SceneBuilder city = paperCity(1);
+    for (std::size_t i = 0; i < city.mediaBoxes.size(); ++i) {
+        city.mediaBoxes[i].extinction = i % 2 == 0 ? 0.03f : 0.004f;
+        city.mediaBoxes[i].albedo = i % 3 == 0 ? 0.5f : 0.95f;
+    }
+    scene_ = city.load();
+    const Agreement found = agreement(render(kSingle, 6144), judge(scene_, product_, kSingle));
+    EXPECT_GT(found.pixels, 40u);
+    EXPECT_LT(std::abs(found.bias), 3);
+    EXPECT_LT(found.worst, largestZ(found.pixels));
+    EXPECT_LT(found.standardError, 0.005);
+}
+
+// Henyey and Greenstein 1941: the share of light that turns by an angle, per steradian.
+double phase(double g, double cosine) {
+    const double distance = 1 + g * g - 2 * g * cosine;
+    return (1 - g * g) / (4 * std::numbers::pi * distance * std::sqrt(distance));
+}
+
+// Single scattering of one isotropic point in one box is an integral along the ray.
+TEST(PathPhase, OneLightIsTheIntegralOfItsPhase) {
+    constexpr double kExtinction = 0.02, kAlbedo = 0.9, kPower = 50;
+    const glm::dvec3 light(0, 0, 10);
+    SceneBuilder city;
+    city.addWindow(vec3(light), {0.5f, 0, 0}, {0, 0, 0.5f}, float(kPower), vec3(1), false);
+    city.addMediaBox({-40, -40, 0}, {40, 40, 40}, float(kExtinction), float(kAlbedo));
+    city.addCamera("inside", {-20, -25, 12}, {0, 0, 10}, 50);
+    const FlatScene scene = city.load();
+    RenderProduct product = productOf("inside", 6, 5);
+    for (const float g : {0.7f, -0.5f}) {
+        RenderSettings settings =
+            pathSettings({Lights::all, Visibility::none, Emitter::isotropic}, 16384);
+        settings.anisotropy = g;
+        const Frame frame = renderOnDevice(scene, product, settings);
+        Frame truth = frame;
+        for (glm::uint i = 0; i < 30; ++i) {
+            const Ray ray = cameraRay(scene.camera("inside").at(1), glm::vec3(0),
+                                      {i % 6 + 0.5, i / 6 + 0.5}, {6, 5});
+            const auto scattered = [&](double t) {
+                const glm::dvec3 way = ray.at(t) - light;
+                const double distance = glm::length(way);
+                return phase(g, glm::dot(way, -ray.direction) / distance) * kExtinction * kAlbedo *
+                       kPower / (4 * std::numbers::pi * distance * distance) *
+                       std::exp(-kExtinction * (t + distance));
+            };
+            // To the wall of the box that the ray leaves through.
+            double end = 1e9;
+            for (int axis = 0; axis < 3; ++axis) {
+                const double wall = ray.direction[axis] > 0 ? 40 : axis == 2 ? 0 : -40;
+                end = std::min(end, (wall - ray.origin[axis]) / ray.direction[axis]);
+            }
+            const double nearest = glm::dot(light - ray.origin, ray.direction);
+            const std::vector<double> pieces{0, std::clamp(nearest, 0.0, end), end};
+            truth.glow[i] = glm::vec3(float(
+                integrate(scattered, pieces, {0, 1e-10}).value));
+        }
+        const Agreement found = agreement(frame, truth);
+        EXPECT_EQ(found.pixels, 30u);
+        EXPECT_LT(std::abs(found.bias), 3) << "g " << g;
+        EXPECT_LT(found.worst, largestZ(found.pixels)) << "g " << g;
+        EXPECT_LT(found.standardError, 0.005) << "g " << g;
+    }
 }
 
 TEST_F(PaperPaths, AlbedoZeroScattersNothing) {
