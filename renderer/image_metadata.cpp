@@ -71,7 +71,7 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
          {"emitter", choiceName(settings.model.emitter)},
          {"scattering", choiceName(settings.model.scattering)},
          {"surfaces", choiceName(settings.model.surfaces)},
-         {"media", settings.media ? "on" : "off"},
+         {"media", settings.media ? "on" : settings.writeOnly ? "off, write only" : "off"},
          {"method", choiceName(settings.method)},
          settings.tolerance
              ? std::pair<std::string, std::string>("tolerance", number(*settings.tolerance))

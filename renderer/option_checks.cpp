@@ -110,6 +110,9 @@ void checkPaths(const Options& options, const Given& given) {
 void checkMethod(const Options& options, const Given& given) {
     const RenderSettings& settings = options.settings;
     checkPaths(options, given);
+    require(!settings.writeOnly || (!settings.media && settings.method == Method::march),
+            "--write-only is for --media off and --method march: it is the least that the surface "
+            "frame can cost");
     if (settings.method == Method::path) {
         return;
     }

@@ -168,6 +168,8 @@ void addModel(CLI::App& app, Options& options) {
            "off: the surface frame, without haze")
         ->type_name("on|off")
         ->default_str("on");
+    app.add_flag("--write-only", options.settings.writeOnly,
+                 "with --media off: write the same images and look at nothing, for timing");
 }
 
 void addMethod(CLI::App& app, Options& options) {

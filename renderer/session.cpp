@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "aovs.h"
 #include "errors.h"
 #include "frame_names.h"
 #include "frame_source.h"
@@ -130,6 +131,8 @@ private:
                 image_.aovs.emplace_back(kErrorAov);
             }
         }
+        const bool display = format_ == ImageFormat::png || format_ == ImageFormat::jpeg;
+        product_.aovs = display ? kAovBeauty : aovBits(image_.aovs);
     }
 
     std::vector<std::string> chooseAovs() {

@@ -12,6 +12,8 @@
 
 #include <glm/glm.hpp>
 
+#include "aovs.h"
+
 namespace nightcity {
 
 // Which physics (the model). Enumerators are added as the renderer learns them.
@@ -68,6 +70,7 @@ struct RenderSettings {
     Orders orders;                           // within those of model.scattering
     float anisotropy = 0;                    // g of Henyey and Greenstein, within (-1, 1)
     bool media = true;                       // off: the surface frame
+    bool writeOnly = false;                  // with media off: write the images, look at nothing
     Primary primary = Primary::raster;
     std::uint32_t pixelSamples = 1;
     Filter filter = Filter::box;             // with 1 sample: the pixel centre
@@ -88,6 +91,7 @@ struct RenderProduct {
     std::uint32_t width = 1920;
     std::uint32_t height = 1061;
     std::vector<glm::uvec2> pixels;  // only these, in this order; empty: all
+    std::uint32_t aovs = kAllAovs;   // images of the frame that matter (aovs.h)
     std::optional<RowRange> tile;    // without a pixel list: only these rows, at least one
 
     RowRange rows() const { return tile.value_or(RowRange{0, height}); }

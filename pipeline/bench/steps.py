@@ -27,6 +27,14 @@ _VIEW = ["--camera", "overview75", "--size", "1920x1061"]
 _REPEATS = 5
 _ROUNDS = 3
 _SURFACE = Setting("surface frame", ("--media", "off"))
+_BEAUTY = ("--aovs", "beauty")
+# What the surface frame is held against: a dispatch that writes the same channels and no more.
+_WRITES = {
+    _SURFACE: Setting("write only", ("--media", "off", "--write-only")),
+    Setting("surface frame, beauty", ("--media", "off", *_BEAUTY)): Setting(
+        "write only, beauty", ("--media", "off", "--write-only", *_BEAUTY)
+    ),
+}
 _MARCHES = tuple(
     Setting(
         f"march-25, {order} outside, {storage}",
@@ -64,6 +72,7 @@ def bench(presets: Sequence[str], towns: Sequence[Path]) -> None:
         scenes = []
         for label, command in sources:
             scenes.append((label, _measure_steps(label, command, folder)))
+        _print_surface_table(*scenes[0], folder)
         _print_march_table(*scenes[0], folder)
 
 
@@ -105,6 +114,34 @@ def _run(command: list[str]) -> Cost:
     if process.returncode:
         raise NightcityError(f"nightcity {' '.join(command)} ended with {process.returncode}")
     return Cost(time.monotonic() - start, usage.ru_maxrss * 1024)
+
+
+def _print_surface_table(label: str, scene: Path, folder: Path) -> None:
+    """The surface frame, found by raster and by rays, beside the dispatch that only writes."""
+    timings: dict[Setting, list[Timing]] = {}
+    for frame, write in _WRITES.items():
+        rays = Setting(f"{frame.name}, rays", (*frame.options, "--primary", "rays"))
+        timings |= {write: [], frame: [], rays: []}
+    for _ in range(_ROUNDS):
+        for setting, measured in timings.items():
+            measured.append(time_frames(scene, _VIEW, setting, _REPEATS, folder))
+    print(f"\n{label}: the surface frame, one interleaved run, {_ROUNDS} x {_REPEATS} frames\n")
+    print("| setting | steady frame, ms | spread, ms | to write only | raster | surface pass, ms |")
+    print("|---|---|---|---|---|---|")
+    write_ms = 0.0
+    for setting, measured in timings.items():
+        steady = [t.steady_frame_ms for t in measured]
+        middle = statistics.median(steady)
+        write_ms = middle if setting in _WRITES.values() else write_ms
+        raster, surface = (
+            statistics.median(t.passes.get(name, 0.0) for t in measured)
+            for name in ("raster", "surface")
+        )
+        print(
+            f"| {setting.name} | {middle:.1f} | {max(steady) - min(steady):.1f} "
+            f"| {middle / write_ms:.2f} | {raster:.1f} | {surface:.1f} |",
+            flush=True,
+        )
 
 
 def _print_march_table(label: str, scene: Path, folder: Path) -> None:

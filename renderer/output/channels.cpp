@@ -8,15 +8,17 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "aovs.h"
 #include "errors.h"
 
 namespace nightcity {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kAovs{
+constexpr std::array<std::string_view, 9> kAovs{  // the bits of aovs.h, from the lowest
     "beauty", "glow", "surface", "transmittance", "depth", "normal", "mediaId", "materialId",
     kErrorAov};
+static_assert(kAllAovs == (1u << kAovs.size()) - 1);
 
 template <auto Member, int Component>
 float component(const Frame& frame, std::size_t pixel) {
@@ -80,6 +82,18 @@ std::vector<Channel> selectChannels(std::span<const std::string> aovs) {
         }
     }
     return selected;
+}
+
+std::uint32_t aovBits(std::span<const std::string> aovs) {
+    checkNames(aovs);
+    if (aovs.empty()) {
+        return kAllAovs & ~kAovGlowError;
+    }
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kAovs.size(); ++i) {
+        bits |= std::find(aovs.begin(), aovs.end(), kAovs[i]) != aovs.end() ? 1u << i : 0;
+    }
+    return bits;
 }
 
 void requireFinite(const Frame& frame) {

@@ -4,6 +4,7 @@
 // The channels of a frame by the names that files give them (design section 7).
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ std::vector<std::string> commonAovs();
 // Of the AOVs named, in the order of the files. An empty list is all that every method has.
 // Throws UsageError for an unknown name, listing the known ones.
 std::vector<Channel> selectChannels(std::span<const std::string> aovs);
+
+// Their bits (aovs.h); all that every method has for an empty list.
+std::uint32_t aovBits(std::span<const std::string> aovs);
 
 // Throws std::runtime_error with the number of NaN and infinite values and the first
 // pixel that holds one.

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "aovs.h"
 #include "passes/gpu_scene.h"
 
 namespace nightcity {
@@ -89,19 +90,24 @@ void BandBuffers::prepare(gpu::Commands& commands, FrameTable table,
     commands.upload(table_, &table, sizeof(FrameTable));
 }
 
-void BandBuffers::copyTo(Frame& frame, std::uint64_t first, std::uint32_t count) const {
+void BandBuffers::copyTo(Frame& frame, std::uint64_t first, std::uint32_t count,
+                         std::uint32_t aovs) const {
     const ImageOffsets at = imageOffsets(rays_, method_);
-    const void* images = images_.data();
-    copyImage(frame.beauty, first, count, images, at.beauty);
-    copyImage(frame.glow, first, count, images, at.glow);
-    copyImage(frame.surface, first, count, images, at.surface);
-    copyImage(frame.transmittance, first, count, images, at.transmittance);
-    copyImage(frame.depth, first, count, images, at.depth);
-    copyImage(frame.normal, first, count, images, at.normal);
-    copyImage(frame.mediaId, first, count, images, at.mediaId);
-    copyImage(frame.materialId, first, count, images, at.materialId);
+    const auto copy = [&](std::uint32_t aov, auto& target, std::uint64_t offset) {
+        if ((aovs & aov) != 0) {
+            copyImage(target, first, count, images_.data(), offset);
+        }
+    };
+    copy(kAovBeauty, frame.beauty, at.beauty);
+    copy(kAovGlow, frame.glow, at.glow);
+    copy(kAovSurface, frame.surface, at.surface);
+    copy(kAovTransmittance, frame.transmittance, at.transmittance);
+    copy(kAovDepth, frame.depth, at.depth);
+    copy(kAovNormal, frame.normal, at.normal);
+    copy(kAovMediaId, frame.mediaId, at.mediaId);
+    copy(kAovMaterialId, frame.materialId, at.materialId);
     if (method_ == Method::path) {
-        copyImage(frame.glowError, first, count, images, at.glowError);
+        copy(kAovGlowError, frame.glowError, at.glowError);
     }
 }
 

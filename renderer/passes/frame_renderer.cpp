@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "aovs.h"
 #include "sample_positions.h"
 
 namespace nightcity {
@@ -26,12 +27,31 @@ void setPosition(FrameTable& table, const CameraFrame& camera, glm::vec3 offset)
     table.positionLow = glm::vec3(exact - glm::dvec3(table.camera.position));
 }
 
+// The images that are asked for, and those that a sum or an error needs; without haze not those
+// that a Frame has right from the start.
+std::uint32_t writtenAovs(const RenderProduct& product, const RenderSettings& settings) {
+    std::uint32_t aovs = product.aovs;
+    if (settings.pixelSamples > 1 && (aovs & kAovBeauty) != 0) {
+        aovs |= kAovSurface | kAovGlow;
+    }
+    if (settings.method == Method::path) {
+        return aovs | kAovGlow;
+    }
+    return settings.media ? aovs : aovs & ~kHazeAovs;
+}
+
 // The settings that pipelines of the method are specialised to; the others as they are by
 // default, so that a change of them makes no pipeline anew.
-PipelineChoice chooseFor(const GpuScene& scene, const RenderSettings& settings) {
+PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
+                         const RenderSettings& settings) {
     PipelineChoice choice;
     choice.method = settings.method;
     choice.media = settings.media;
+    choice.aovs = writtenAovs(product, settings);
+    if (!settings.media && settings.method != Method::path) {
+        choice.task = settings.writeOnly ? kTaskWrite : kTaskImages;
+        return choice;
+    }
     if (settings.method == Method::path) {
         choice.model = settings.model;
         choice.model.scattering = Scattering::single;  // the orders are in the frame table
@@ -80,7 +100,7 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
         work.firstPixel = std::uint64_t{product.width} * product.rows().first;
         work.pixels = std::uint64_t{product.width} * product.rows().count;
     }
-    preparePipelines(scene, settings);
+    preparePipelines(scene, product, settings);
     prepareBand(work, camera, product);
 
     PushConstants push{};
@@ -99,21 +119,26 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
                              static_cast<double>(work.pixels));
                 }
             };
-            if (settings.method == Method::path) {
+            const bool last = sample + 1 == work.samples.size();
+            if (pipelines_->choice.task != kTaskRecords) {
+                surfaceSample(work, push, last);
+            } else if (settings.method == Method::path) {
                 tracePaths(work, push, report);
+                accumulateSample(work, push, last);
             } else {
                 marchSample(work, push);
+                accumulateSample(work, push, last);
             }
-            accumulateSample(work, push, sample + 1 == work.samples.size());
             report(1);
         }
-        band_->copyTo(frame, first, push.pixelCount);
+        band_->copyTo(frame, first, push.pixelCount, product.aovs & pipelines_->choice.aovs);
     }
     return work.cost;
 }
 
-void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderSettings& settings) {
-    const PipelineChoice choice = chooseFor(scene, settings);
+void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderProduct& product,
+                                     const RenderSettings& settings) {
+    const PipelineChoice choice = chooseFor(scene, product, settings);
     if (!pipelines_ || pipelines_->choice != choice) {
         pipelines_ = std::make_unique<PassPipelines>(device_, choice);
         bound_ = false;
@@ -142,7 +167,7 @@ void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
     if (method == Method::path) {
         setPaths(table, work.settings);
     }
-    work.rasterised = work.settings.primary == Primary::raster &&
+    work.rasterised = work.settings.primary == Primary::raster && !work.settings.writeOnly &&
                       raster_.serves(work.scene, product.width, product.height);
     table.proposals = work.rasterised ? raster_.prepare(product.width, product.height) : uvec2(0);
     band_->prepare(commands_, table, product.pixels, work.samples);
@@ -187,6 +212,18 @@ void FrameRenderer::recordSurface(VkCommandBuffer commands, const Work& work,
     dispatch(commands, "surface", pipelines_->surface, push);
 }
 
+void FrameRenderer::surfaceSample(Work& work, const PushConstants& push, bool last) {
+    const double milliseconds = commands_.run("surface frame", [&](VkCommandBuffer commands) {
+        timestamps_.begin(commands);
+        gpu::computeBarrier(commands);
+        recordSurface(commands, work, push);
+        if (last) {
+            band_->images().recordReadback(commands);
+        }
+    });
+    collectTimes(work.cost, milliseconds);
+}
+
 void FrameRenderer::tracePaths(Work& work, PushConstants push,
                                const std::function<void(double)>& progress) {
     const std::uint32_t rounds = (work.settings.samples - 1) / kPathsPerDispatch + 1;
@@ -210,7 +247,6 @@ void FrameRenderer::tracePaths(Work& work, PushConstants push,
 
 void FrameRenderer::marchSample(Work& work, PushConstants push) {
     const VkBuffer counterBuffer = band_->counters().buffer().get();
-    const bool media = work.settings.media;
     for (push.round = 0;; ++push.round) {
         const double milliseconds = commands_.run("trace", [&](VkCommandBuffer commands) {
             timestamps_.begin(commands);
@@ -219,10 +255,8 @@ void FrameRenderer::marchSample(Work& work, PushConstants push) {
             if (push.round == 0) {
                 recordSurface(commands, work, push);
             }
-            if (media) {
-                dispatch(commands, "traverse", pipelines_->traverse, push);
-                dispatch(commands, "march", pipelines_->march, push);
-            }
+            dispatch(commands, "traverse", pipelines_->traverse, push);
+            dispatch(commands, "march", pipelines_->march, push);
             band_->counters().recordReadback(commands);
         });
         collectTimes(work.cost, milliseconds);

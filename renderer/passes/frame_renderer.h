@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders a frame band by band: raster and surface; traverse and march, or path; accumulate.
+// Renders a frame band by band: raster and surface; traverse and march, or path;
+// accumulate. Without haze the surface pass writes the images itself.
 #pragma once
 
 #include <cstdint>
@@ -42,11 +43,13 @@ public:
 private:
     struct Work;  // one render call
 
-    void preparePipelines(const GpuScene& scene, const RenderSettings& settings);
+    void preparePipelines(const GpuScene& scene, const RenderProduct& product,
+                          const RenderSettings& settings);
     void prepareBand(Work& work, const CameraFrame& camera, const RenderProduct& product);
     void warmUp(const GpuScene& scene);
     // Records the pass that finds the surfaces: the raster where it is due, then the rays'.
     void recordSurface(VkCommandBuffer commands, const Work& work, const PushConstants& push);
+    void surfaceSample(Work& work, const PushConstants& push, bool last);
     void tracePaths(Work& work, PushConstants push, const std::function<void(double)>& progress);
     void marchSample(Work& work, PushConstants push);
     void accumulateSample(Work& work, const PushConstants& push, bool last);

@@ -71,14 +71,18 @@ std::uint32_t emitterConstant(Emitter emitter) {
 
 PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings)
     : choice(settings) {
-    surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructure});
+    surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructure},
+                           {choice.task, choice.aovs});
+    if (choice.task != kTaskRecords) {
+        return;
+    }
     if (choice.method == Method::path) {
         makePath(device);
     } else {
         makeMarch(device);
     }
     accumulate = makePipeline(device, "accumulate", kAccumulateSpirv, {},
-                              {choice.media ? 1u : 0u});
+                              {choice.media ? 1u : 0u, choice.aovs});
 }
 
 void PassPipelines::makeMarch(gpu::Device& device) {
@@ -98,6 +102,9 @@ void PassPipelines::makePath(gpu::Device& device) {
 
 void PassPipelines::bind(const GpuScene& scene) {
     surface.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
+    if (choice.task != kTaskRecords) {
+        return;
+    }
     if (choice.method == Method::path) {
         path.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
         return;
@@ -107,6 +114,9 @@ void PassPipelines::bind(const GpuScene& scene) {
 }
 
 std::vector<const gpu::ComputePipeline*> PassPipelines::all() const {
+    if (choice.task != kTaskRecords) {
+        return {&surface};
+    }
     if (choice.method == Method::path) {
         return {&surface, &path, &accumulate};
     }

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "aovs.h"
+#include "dispatch.h"
 #include "gpu/compute_pipeline.h"
 #include "passes/gpu_scene.h"
 #include "settings.h"
@@ -27,6 +29,8 @@ std::uint32_t emitterConstant(Emitter emitter);
 struct PipelineChoice {
     Method method = Method::march;
     bool media = true;
+    std::uint32_t task = kTaskRecords;  // of surface.comp; of others there is no other pass
+    std::uint32_t aovs = kAllAovs;      // images that are written, sums among them
     // Of the march:
     MarchOrder order = MarchOrder::lights;
     LightPages lights;
@@ -40,10 +44,10 @@ struct PipelineChoice {
 struct PassPipelines {
     PipelineChoice choice;
     gpu::ComputePipeline surface;
-    gpu::ComputePipeline traverse;  // with the march only
+    gpu::ComputePipeline traverse;  // with the march and records only
     gpu::ComputePipeline march;
     gpu::ComputePipeline path;      // with the path tracer only
-    gpu::ComputePipeline accumulate;
+    gpu::ComputePipeline accumulate;  // with records only
 
     PassPipelines(gpu::Device& device, const PipelineChoice& choice);
     // To be called when the scene's structure or lists were made anew.

@@ -30,13 +30,21 @@ NIGHTCITY_CONST uint kMaskLoosePanes = 4u;   // emitters that stand on no facade
 #define NIGHTCITY_CONSTANT_PAGE_COUNT 2
 #define NIGHTCITY_CONSTANT_PAGE_ENTRIES 3    // LightEntry a page, a power of two
 #define NIGHTCITY_CONSTANT_SUBDIVISIONS 4    // steps a segment
-// Specialization constant of accumulate.comp and path.comp.
+// Specialization constants of accumulate.comp; the first also of path.comp.
 #define NIGHTCITY_CONSTANT_MEDIA 0           // 0: surface frame
+#define NIGHTCITY_CONSTANT_AOVS 1            // kAovBeauty and so on (aovs.h): the images to write
+// Specialization constants of surface.comp, and NIGHTCITY_CONSTANT_AOVS.
+#define NIGHTCITY_CONSTANT_TASK 0            // kTaskRecords and so on
 // Specialization constants of path.comp: the model.
 #define NIGHTCITY_CONSTANT_EMITTER 1         // kEmitterIsotropic and so on
 #define NIGHTCITY_CONSTANT_VISIBILITY 2      // 1: opaque surfaces hide windows
 #define NIGHTCITY_CONSTANT_LISTED 3          // 1: only the windows that a media box lists
 #define NIGHTCITY_CONSTANT_LIT 4             // 1: windows light surfaces
+
+// What surface.comp does.
+NIGHTCITY_CONST uint kTaskRecords = 0u;  // leaves a SurfaceRecord a ray
+NIGHTCITY_CONST uint kTaskImages = 1u;   // writes the images of the surface frame
+NIGHTCITY_CONST uint kTaskWrite = 2u;    // writes the same images and looks at nothing
 
 // As Emitter of settings.h.
 NIGHTCITY_CONST uint kEmitterIsotropic = 0u;
