@@ -196,7 +196,7 @@ def _verdict(
         f"worst pixel {agreed.worst:.2f} of {agreed.bound:.2f} sigma"
     )
     faults = agreed.faults
-    return (f"DISAGREES ({'; '.join(faults)}): " if faults else "agrees: ") + figures, not faults
+    return (f"MISSES ({'; '.join(faults)}): " if faults else "agrees: ") + figures, not faults
 
 
 def percent(share: float) -> str:

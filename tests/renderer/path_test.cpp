@@ -199,6 +199,36 @@ TEST_F(PaperPaths, StandardErrorIsHonest) {
     EXPECT_NEAR(squares / count, 1, 0.2);
 }
 
+// What walls and ground reflect has no error channel: its error is the spread over seeds.
+TEST_F(PaperPaths, LitSurfacesAgreeWithTheJudge) {
+    constexpr int kSeeds = 16;
+    constexpr float kPane = 1;  // W m^-2 sr^-1: no surface reflects as much
+    Model lit = kSingle;
+    lit.surfaces = Surfaces::lit;
+    product_ = productOf("street", 640, 360);
+    product_.pixels = selectPixels(scene_, product_, 16, 5);
+    const Frame judged = judge(scene_, product_, lit);
+    double truth = 0;
+    for (const glm::vec3& surface : judged.surface) {
+        truth += surface.y < kPane ? surface.y : 0;
+    }
+    double mean = 0, squares = 0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+        const Frame frame = render(lit, 384, {}, seed);
+        double share = 0;
+        for (std::size_t i = 0; i < judged.surface.size(); ++i) {
+            share += judged.surface[i].y < kPane ? frame.surface[i].y / truth : 0;
+        }
+        mean += share / kSeeds;
+        squares += share * share / kSeeds;
+    }
+    const double error = std::sqrt((squares - mean * mean) / (kSeeds - 1));
+    EXPECT_GT(truth, 0);
+    EXPECT_LT(std::abs(mean - 1), 3 * error);
+    EXPECT_LT(error, 0.005);
+    EXPECT_GT(error, 0);
+}
+
 // Every box of another haze: thick and thin, bright and dark, in turn.
 TEST_F(PaperPaths, AgreeWithTheJudgeInMixedHazes) {
     SceneBuilder city = paperCity(1);
