@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from nightcity.errors import DeviceError, NightcityError, SceneError, UsageError
 from nightcity.farm.job import FarmStep, Task
-from nightcity.farm.task import HOPELESS, TaskFailed, run_command, stop_commands
+from nightcity.farm.task import HOPELESS, TaskFailed, is_stopped, run_command, stop_commands
 from nightcity.farm.template import CHECK, EXPORT
 
 _ERRORS = {2: UsageError, 3: SceneError, 4: DeviceError}
@@ -38,25 +38,25 @@ def run_job(steps: list[FarmStep], scheduler: str | None, workers: int, retries:
 
 @contextlib.contextmanager
 def _client(scheduler: str | None, workers: int) -> Iterator[object]:
-    import dask
     import distributed
 
     with contextlib.ExitStack() as stack:
         if scheduler:
             try:
-                yield stack.enter_context(distributed.Client(scheduler, timeout=30))
-            except OSError as error:
+                client = distributed.Client(scheduler, timeout=30)
+            except (OSError, ValueError) as error:
                 raise NightcityError(f"--scheduler {scheduler}: {error}") from None
+            yield stack.enter_context(client)
             return
         # Workers that die are said below, with what they did.
         logging.getLogger("distributed").setLevel(logging.CRITICAL)
-        stack.enter_context(dask.config.set({"distributed.worker.use-file-locking": False}))
         folder = stack.enter_context(tempfile.TemporaryDirectory(ignore_cleanup_errors=True))
         cluster = distributed.LocalCluster(
             n_workers=workers,
             threads_per_worker=1,
             memory_limit=0,
-            dashboard_address=None,
+            dashboard_address=":0",  # any port: two jobs may run
+            silence_logs=logging.CRITICAL,
             local_directory=folder,
         )
         stack.enter_context(cluster)
@@ -94,8 +94,8 @@ def _run_step(client: object, step: FarmStep, run: str, retries: int) -> tuple[i
         task = futures[future]
         code, said = _outcome(future)
         if code:
-            failed = code, f"{task.label}: {said}"
-            print(f"failed: {task.label} (exit code {code}): {said}", flush=True)
+            failed = code, f"{task.label}: {said.splitlines()[-1] if said else code}"
+            print(f"failed: {task.label} (exit code {code})", flush=True)
         print(f"{step.name} {done}/{len(futures)}", flush=True)
     return failed
 
@@ -122,9 +122,9 @@ def _work(task: Task, run: str) -> tuple[int, str]:
             worker.log_event(run, line)
 
     code, said = run_command(task.command, run, say)
-    if code == 0:
-        return 0, ""
-    if code in HOPELESS:
+    if code == 0 or is_stopped(run):
         return code, said
     worker.log_event(run, f"try failed: {task.label} (exit code {code}): {said}")
+    if code in HOPELESS:
+        return code, said
     raise TaskFailed(code, said)

@@ -17,7 +17,8 @@ from nightcity.render import WITH_ITS_PARENT
 # Exit codes that would come again wherever the task runs: usage, scene.
 HOPELESS = frozenset({2, 3})
 
-_KEPT_LINES = 20  # of what a command that failed said last
+_KEPT_LINES = 20  # of what a command that failed said last, less what tells of progress
+_PROGRESS = ("openjd_progress:", "ALF_PROGRESS ", "wrote ", "kept ")
 _STOP_SECONDS = 60  # between TERM and KILL
 
 _lock = threading.Lock()
@@ -36,7 +37,7 @@ def run_command(command: Sequence[str], run: str, say: Callable[[str], None]) ->
     """
     with _lock:
         if run in _stopped:
-            return 128 + signal.SIGTERM, "not started: the run was stopped"
+            return 128 + signal.SIGTERM, "not started"
         process = subprocess.Popen(
             [*WITH_ITS_PARENT, *command],
             stdin=subprocess.DEVNULL,
@@ -49,8 +50,9 @@ def run_command(command: Sequence[str], run: str, say: Callable[[str], None]) ->
     try:
         last: collections.deque[str] = collections.deque(maxlen=_KEPT_LINES)
         for line in process.stdout:
-            last.append(line.rstrip())
             say(line.rstrip())
+            if not line.startswith(_PROGRESS):
+                last.append(line.rstrip())
         return process.wait(), "\n".join(last)
     finally:
         with _lock:
@@ -84,6 +86,11 @@ def _requeue(environment: Mapping[str, str], retries: int) -> None:
     done = subprocess.run(["scontrol", "requeue", environment["SLURM_JOB_ID"]], check=False)
     if done.returncode:
         raise NightcityError("scontrol requeue failed; the task is not tried on another node")
+
+
+def is_stopped(run: str) -> bool:
+    """Whether `stop_commands` was called for the run in this process."""
+    return run in _stopped
 
 
 def stop_commands(run: str) -> None:
