@@ -41,6 +41,11 @@ class MitsubaEnvironment:
 
         A library that DRJIT_LIBLLVM_PATH names is used instead of Debian's.
         """
+        if self.folder.exists() and not (self.folder / "pyvenv.cfg").is_file():
+            raise UsageError(
+                f"--environment {self.folder}: is there already and no Python environment; "
+                "name a folder that --install may make"
+            )
         say(f"installing {_REQUIREMENTS[0]} in {self.folder}")
         shutil.rmtree(self.folder, ignore_errors=True)
         _run([sys.executable, "-m", "venv", self.folder])

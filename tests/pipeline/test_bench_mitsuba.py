@@ -12,9 +12,10 @@ from conftest import Command
 
 from nightcity.bench.independent import compare_passes
 from nightcity.bench.judge import View
+from nightcity.bench.mitsuba_environment import MitsubaEnvironment
 from nightcity.bench.mitsuba_scene import pixel_rays, write_mitsuba_scene
 from nightcity.bench.scenes import open_scene
-from nightcity.errors import SceneError
+from nightcity.errors import SceneError, UsageError
 from nightcity.export.read import read_scene
 
 SIZE = "96x54"
@@ -90,6 +91,13 @@ def test_wrong_input_is_named(nightcity: Command, tmp_path: Path) -> None:
     done = nightcity("bench", "mitsuba", "--environment", tmp_path / "nothing", code=2)
     assert "nothing: holds no Mitsuba with its LLVM; add --install" in done.stderr
     assert "--passes" in nightcity("bench", "mitsuba", "--passes", "2", code=2).stderr
+
+
+def test_install_replaces_nothing_but_an_environment(tmp_path: Path) -> None:
+    (tmp_path / "kept.txt").write_text("mine")
+    with pytest.raises(UsageError, match="is there already and no Python environment"):
+        MitsubaEnvironment(tmp_path).install()
+    assert (tmp_path / "kept.txt").is_file()
 
 
 def test_what_is_no_scene_is_refused(tmp_path: Path) -> None:
