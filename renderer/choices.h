@@ -35,7 +35,7 @@ NIGHTCITY_CHOICES(Emitter, {"isotropic", Emitter::isotropic},
 NIGHTCITY_CHOICES(Scattering, {"single", Scattering::single},
                   {"multiple", Scattering::multiple})
 NIGHTCITY_CHOICES(Surfaces, {"dim", Surfaces::dim}, {"lit", Surfaces::lit})
-NIGHTCITY_CHOICES(Method, {"march", Method::march}, {"path", Method::path},
+NIGHTCITY_CHOICES(Method, {"march", Method::march}, {"gauss", Method::gauss}, {"path", Method::path},
                   {"reference", Method::reference})
 NIGHTCITY_CHOICES(MarchOrder, {"steps", MarchOrder::steps}, {"lights", MarchOrder::lights})
 NIGHTCITY_CHOICES(LightStorage, {"uniform", LightStorage::uniform},

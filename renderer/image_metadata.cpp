@@ -93,6 +93,8 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
     }
     if (settings.method == Method::march) {
         entries.emplace_back("marchOrder", choiceName(settings.marchOrder));
+    }
+    if (settings.method == Method::march || settings.method == Method::gauss) {
         entries.emplace_back("lightStorage", choiceName(settings.lightStorage));
     }
 }

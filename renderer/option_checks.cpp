@@ -72,7 +72,7 @@ void checkMarchedModel(const Model& model) {
     const Model paper;
     const auto same = [](auto value, auto known, const std::string& option, const char* name) {
         require(value == known, option + ": march knows only " + name +
-                                    "; --method reference without --subdivisions knows all");
+                                    "; --method gauss knows all, and reference without --subdivisions");
     };
     same(model.lights, paper.lights, "--lights", "listed");
     same(model.visibility, paper.visibility, "--visibility", "none");
@@ -107,6 +107,16 @@ void checkPaths(const Options& options, const Given& given) {
             "--orders: single scattering is order 1 only; add --scattering multiple");
 }
 
+void checkGauss(const Options& options, const Given& given) {
+    for (const char* name : {"--subdivisions", "--march-order"}) {
+        require(!given(name), std::string(name) + " is not for --method gauss; it takes --tolerance");
+    }
+    const double tolerance = options.settings.tolerance.value_or(0.01);
+    require(tolerance >= 1e-4 && tolerance <= 0.1,
+            "--tolerance of --method gauss must lie from 1e-4 to 0.1; --method reference goes "
+            "down to 1e-7");
+}
+
 void checkMethod(const Options& options, const Given& given) {
     const RenderSettings& settings = options.settings;
     checkPaths(options, given);
@@ -116,9 +126,14 @@ void checkMethod(const Options& options, const Given& given) {
     if (settings.method == Method::path) {
         return;
     }
+    if (settings.method == Method::gauss) {
+        checkGauss(options, given);
+        return;
+    }
     const bool exact = settings.method == Method::reference && !given("--subdivisions");
     require(!given("--tolerance") || exact,
-            "--tolerance is for --method reference without --subdivisions; the march takes steps");
+            "--tolerance is for --method gauss, and reference without --subdivisions; the march "
+            "takes steps");
     const double tolerance = settings.tolerance.value_or(1);
     require(tolerance >= 1e-7 && tolerance <= 1, "--tolerance must lie from 1e-7 to 1");
     if (!exact) {

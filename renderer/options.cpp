@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kMaxSide = 65536;                        // pixels
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;     // of one image
-constexpr double kJudgedTolerance = 0.01;  // relative
+constexpr double kDefaultTolerance = 0.01;  // relative
 constexpr std::uint32_t kMaxCount = 1u << 24;  // of steps, samples, repeats, pixels, lights
 
 std::optional<std::uint32_t> wholeNumber(std::string_view text) {
@@ -175,12 +175,12 @@ void addModel(CLI::App& app, Options& options) {
 void addMethod(CLI::App& app, Options& options) {
     RenderSettings& settings = options.settings;
     addChoice(app, "--method", settings.method,
-              "march or Monte Carlo paths on the device; or in double precision on the CPU the exact "
+              "march, quadrature to a tolerance or Monte Carlo paths on the device; or in double precision on the CPU the exact "
               "integral, with --subdivisions the same march");
     addCount(app, "--subdivisions", settings.subdivisions, "steps of the march in each media box");
     app.add_option("--tolerance", settings.tolerance,
-                   "of what the reference shall judge: it is exact to a tenth of it, relative "
-                   "(default 0.01)")
+                   "relative error of the glow, of --method gauss; of what the reference shall judge: "
+                   "it is exact to a tenth of it (default 0.01)")
         ->type_name("T");
     addChoice(app, "--march-order", settings.marchOrder, "which loop of the march is outside");
     app.add_option("--light-cap", settings.lightCap, "at most so many lit windows a media box")
@@ -250,9 +250,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv, std::ostr
         options.progress = ProgressStyle::none;
     }
     checkCombinations(options, [&](const char* name) { return app.count(name) > 0; });
-    if (options.settings.method == Method::reference && app.count("--subdivisions") == 0 &&
-        !options.settings.tolerance) {
-        options.settings.tolerance = kJudgedTolerance;
+    const Method method = options.settings.method;
+    const bool toTolerance =
+        method == Method::gauss ||
+        (method == Method::reference && app.count("--subdivisions") == 0);
+    if (toTolerance && !options.settings.tolerance) {
+        options.settings.tolerance = kDefaultTolerance;
     }
     return options;
 }

@@ -101,7 +101,7 @@ private:
         }
         if (settings.method == Method::march && settings.model != Model{}) {
             throw UsageError("--method march knows --model paper only: for any other model take "
-                             "--method path or reference");
+                             "--method gauss, path or reference");
         }
         if (product.width == 0 || product.height == 0) {
             throw UsageError("--size: width and height must be at least 1 pixel");
@@ -114,6 +114,9 @@ private:
         if (rows.count == 0 || rows.first >= product.height ||
             rows.count > product.height - rows.first) {
             throw std::logic_error("a tile outside its frame");
+        }
+        if (settings.method == Method::gauss && !settings.tolerance) {
+            throw UsageError("--method gauss needs --tolerance");
         }
         if (settings.subdivisions == 0) {
             throw UsageError("--subdivisions must be at least 1");

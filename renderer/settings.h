@@ -26,6 +26,7 @@ enum class Surfaces { dim, lit };
 // How its integral is computed.
 enum class Method {
     march,      // N equal steps a segment, midpoints, on the GPU
+    gauss,      // quadrature over the visible part of each window's light, on the GPU
     path,       // unbiased Monte Carlo, on the GPU
     reference,  // in double precision, on the CPU: the same march, or the exact integral
 };
@@ -63,7 +64,8 @@ struct RenderSettings {
     LightStorage lightStorage = LightStorage::uniform;
     std::uint32_t subdivisions = 25;         // steps a segment, at least 1
     std::optional<std::uint32_t> lightCap;   // at most this many lit windows a box, the nearest ids first
-    // Method::reference: exact to a tenth of this (relative); unset: the march.
+    // Method::gauss: relative error of a pixel's glow. Method::reference: exact to a tenth of this;
+    // unset: the march.
     std::optional<double> tolerance;
     // Method::path:
     std::uint32_t samples = 64;              // paths a pixel sample, at least 1

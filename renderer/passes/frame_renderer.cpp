@@ -11,7 +11,7 @@
 namespace nightcity {
 namespace {
 
-constexpr std::uint32_t kSpansPerBatch = 4;  // raster, surface, traverse, march
+constexpr std::uint32_t kSpansPerBatch = 5;  // raster, surface, lit, traverse, march or gauss
 // Pixels of a band: about 100 MiB of records and images.
 constexpr std::uint32_t kBandPixels = 1u << 18;
 
@@ -48,7 +48,9 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
     choice.method = settings.method;
     choice.media = settings.media;
     choice.aovs = writtenAovs(product, settings);
-    if (!settings.media && settings.method != Method::path) {
+    const bool lit =
+        settings.method == Method::gauss && settings.model.surfaces == Surfaces::lit;
+    if (!settings.media && settings.method != Method::path && !lit) {
         choice.task = settings.writeOnly ? kTaskWrite : kTaskImages;
         return choice;
     }
@@ -56,9 +58,14 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
         choice.model = settings.model;
         choice.model.scattering = Scattering::single;  // the orders are in the frame table
     } else {
-        choice.order = settings.marchOrder;
-        choice.subdivisions = settings.subdivisions;
         choice.lights = scene.lights().pages();
+        if (settings.method == Method::gauss) {
+            choice.model = settings.model;
+            choice.uniformHaze = scene.isHazeUniform();
+        } else {
+            choice.order = settings.marchOrder;
+            choice.subdivisions = settings.subdivisions;
+        }
     }
     return choice;
 }
@@ -126,7 +133,7 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
                 tracePaths(work, push, report);
                 accumulateSample(work, push, last);
             } else {
-                marchSample(work, push);
+                scatterSample(work, push);
                 accumulateSample(work, push, last);
             }
             report(1);
@@ -164,6 +171,8 @@ void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
     table.height = product.height;
     table.sampleCount = static_cast<std::uint32_t>(work.samples.size());
     table.centreSample = static_cast<std::uint32_t>(centreSample(work.samples));
+    table.tolerance = static_cast<float>(work.settings.tolerance.value_or(0));
+    table.lightCap = work.settings.lightCap.value_or(kNone);
     if (method == Method::path) {
         setPaths(table, work.settings);
     }
@@ -245,8 +254,10 @@ void FrameRenderer::tracePaths(Work& work, PushConstants push,
     }
 }
 
-void FrameRenderer::marchSample(Work& work, PushConstants push) {
+void FrameRenderer::scatterSample(Work& work, PushConstants push) {
     const VkBuffer counterBuffer = band_->counters().buffer().get();
+    const bool media = work.settings.media;
+    const bool gauss = work.settings.method == Method::gauss;
     for (push.round = 0;; ++push.round) {
         const double milliseconds = commands_.run("trace", [&](VkCommandBuffer commands) {
             timestamps_.begin(commands);
@@ -254,15 +265,20 @@ void FrameRenderer::marchSample(Work& work, PushConstants push) {
             gpu::computeBarrier(commands);
             if (push.round == 0) {
                 recordSurface(commands, work, push);
+                if (pipelines_->choice.lightsSurfaces()) {
+                    dispatch(commands, "lit", pipelines_->lit, push);
+                }
             }
-            dispatch(commands, "traverse", pipelines_->traverse, push);
-            dispatch(commands, "march", pipelines_->march, push);
+            if (media) {
+                dispatch(commands, "traverse", pipelines_->traverse, push);
+                dispatch(commands, gauss ? "gauss" : "march", pipelines_->inScatter, push);
+            }
             band_->counters().recordReadback(commands);
         });
         collectTimes(work.cost, milliseconds);
         const std::uint64_t lightSegments =
             counters().lightSegmentsLow | std::uint64_t{counters().lightSegmentsHigh} << 32;
-        work.cost.lightEvaluations += lightSegments * work.settings.subdivisions;
+        work.cost.lightEvaluations += lightSegments * (gauss ? 1 : work.settings.subdivisions);
         if (counters().unfinished == 0) {
             return;
         }

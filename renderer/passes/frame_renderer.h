@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders a frame band by band: raster and surface; traverse and march, or path;
-// accumulate. Without haze the surface pass writes the images itself.
+// Renders a frame band by band: raster and surface, and its light; traverse and march or
+// gauss, or path; accumulate. Without haze the surface pass writes the images itself.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ private:
     void recordSurface(VkCommandBuffer commands, const Work& work, const PushConstants& push);
     void surfaceSample(Work& work, const PushConstants& push, bool last);
     void tracePaths(Work& work, PushConstants push, const std::function<void(double)>& progress);
-    void marchSample(Work& work, PushConstants push);
+    void scatterSample(Work& work, PushConstants push);
     void accumulateSample(Work& work, const PushConstants& push, bool last);
     void dispatch(VkCommandBuffer commands, const char* name, const gpu::ComputePipeline& pipeline,
                   const PushConstants& push);

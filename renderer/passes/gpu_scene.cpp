@@ -8,6 +8,7 @@
 #include "passes/light_tree.h"
 #include "passes/occluder_tree.h"
 #include "scene/facades.h"
+#include "scene/uniform_haze.h"
 
 namespace nightcity {
 namespace {
@@ -74,8 +75,10 @@ void GpuScene::syncGeometry(const FlatScene& scene) {
     arrays_.clear();
     contents_ = {};
     farFieldSettings_.reset();
+    uniformHaze_ = false;
     uploadGeometry(scene);
     uploadOccluders(scene);
+    uploadMediaTree(scene);
     buildTriangles(scene);
     buildMedia(scene);
     buildLoosePanes(scene);
@@ -105,6 +108,18 @@ void GpuScene::uploadGeometry(const FlatScene& scene) {
     contents_.lightList = uploadArray("light list", scene.lightList);
     contents_.groundMaterial = scene.ground ? scene.ground->material : kNone;
     contents_.groundHeight = scene.ground ? scene.ground->height : 0;
+}
+
+void GpuScene::uploadMediaTree(const FlatScene& scene) {
+    if (scene.mediaBoxes.empty()) {
+        return;
+    }
+    std::vector<Bounds> boxes;
+    for (const MediaBox& box : scene.mediaBoxes) {
+        boxes.push_back({glm::dvec3(box.lo), glm::dvec3(box.hi)});
+    }
+    contents_.mediaNodes = uploadArray<BoxNode>("media tree", packBoxTree(BoxTree(boxes)));
+    uniformHaze_ = nightcity::isHazeUniform(scene);
 }
 
 void GpuScene::uploadOccluders(const FlatScene& scene) {
@@ -192,7 +207,7 @@ void GpuScene::syncWindowState(const FlatScene& scene, int frame,
     const std::vector<std::uint8_t> on = scene.windowsOn(frame);
     const std::vector<std::uint32_t> bits = stateBits(on);
     uploadState(windowOn_, "window state", bits.data(), bits.size() * 4);
-    if (settings.method == Method::path) {
+    if (settings.method == Method::path || settings.method == Method::gauss) {
         uploadLightTree(scene, on, settings.model.emitter);
     }
     lights_.upload(packLights(scene, on, settings.lightCap), settings.lightStorage);

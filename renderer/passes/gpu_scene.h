@@ -49,6 +49,7 @@ public:
     std::uint64_t vertexCount() const { return positions_.bytes() / sizeof(vec3); }
     const std::vector<TriangleChunk>& chunks() const { return chunks_; }
     const FarFieldGrid& farField() const { return farField_; }
+    bool isHazeUniform() const { return uniformHaze_; }  // scene/uniform_haze.h
 
 private:
     template <typename T>
@@ -57,6 +58,7 @@ private:
     uvec2 uploadArray(const char* name, std::span<const T> data);
     void uploadGeometry(const FlatScene& scene);
     void uploadOccluders(const FlatScene& scene);
+    void uploadMediaTree(const FlatScene& scene);
     void buildTriangles(const FlatScene& scene);
     void buildMedia(const FlatScene& scene);
     void buildLoosePanes(const FlatScene& scene);
@@ -85,6 +87,7 @@ private:
     std::optional<FarFieldSettings> farFieldSettings_;  // that the far field was laid out for
     gpu::Buffer table_;
     SceneTable contents_{};
+    bool uniformHaze_ = false;
 };
 
 // The two words of an address as the shaders take them.

@@ -140,7 +140,8 @@ private:
         const LightNode& a = tree_.nodes[first.node];
         const LightNode& b = tree_.nodes[second.node];
         return store(index, glm::min(a.lo, b.lo), glm::max(a.hi, b.hi),
-                     joined(first.cone, second.cone), first.power + second.power, second.node);
+                     joined(first.cone, second.cone), first.power + second.power, second.node,
+                     std::uint32_t(part.size()));
     }
 
     Subtree buildLeaf(std::uint32_t index, std::uint32_t trail) {
@@ -153,11 +154,11 @@ private:
             pane ? glm::abs(window.halfU) + glm::abs(window.halfV) : glm::vec3(0);
         const Cone cone = isSphere(window) ? Cone{} : Cone{normal(window), 0};
         return store(node, window.centre - extent, window.centre + extent, cone,
-                     meanPower(window), kLightLeaf | index);
+                     meanPower(window), kLightLeaf | index, 1);
     }
 
     Subtree store(std::uint32_t index, glm::vec3 lo, glm::vec3 hi, const Cone& cone, double power,
-                  std::uint32_t child) {
+                  std::uint32_t child, std::uint32_t count) {
         constexpr double kRounding = 1e-3;  // rad: the shader's cosines are floats
         const double angle = std::min(kPi, cone.angle + kRounding);
         tree_.nodes[index] = {lo,
@@ -165,7 +166,8 @@ private:
                               hi,
                               angle >= kPi ? -1.0f : float(std::cos(angle)),
                               glm::vec3(cone.axis),
-                              child};
+                              child,
+                              count};
         return {index, cone, power};
     }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The binary tree over the lit windows from which the path tracer draws them
+// The binary tree over the lit windows from which the path tracer draws them and by
+// which gauss leaves them out
 // (dispatch.h, shaders/light_tree.glsl). No Vulkan.
 #pragma once
 

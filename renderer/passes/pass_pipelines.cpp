@@ -4,6 +4,9 @@
 
 #include "accumulate_spirv.h"
 #include "dispatch.h"
+#include "gauss_points_spirv.h"
+#include "gauss_spirv.h"
+#include "lit_spirv.h"
 #include "march_spirv.h"
 #include "path_spirv.h"
 #include "surface_spirv.h"
@@ -14,10 +17,10 @@ namespace {
 
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(MarchMedium) == 20);
-static_assert(sizeof(SceneTable) == 21 * 8 + 16);
+static_assert(sizeof(SceneTable) == 22 * 8 + 16);
 static_assert(sizeof(BoxNode) == 32);
 static_assert(sizeof(OccluderFace) == 20);
-static_assert(sizeof(FrameTable) == 19 * 8 + 20 + sizeof(CameraFrame) + 12 + 16);
+static_assert(sizeof(FrameTable) == 19 * 8 + 20 + sizeof(CameraFrame) + 12 + 8 + 16);
 static_assert(sizeof(PushConstants) == 32);  // devices give at least 128
 static_assert(sizeof(SurfaceRecord) == 32);
 static_assert(sizeof(RayProgress) == 32);
@@ -38,7 +41,15 @@ std::vector<std::uint32_t> marchConstants(const PipelineChoice& choice) {
     return constants;
 }
 
-std::vector<std::uint32_t> pathConstants(const PipelineChoice& choice) {
+std::vector<gpu::Binding> pageBindings(const LightPages& pages) {
+    const bool uniform = pages.storage == LightStorage::uniform;
+    return {{NIGHTCITY_BINDING_UNIFORM_PAGES, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+             uniform ? pages.count : 1},
+            {NIGHTCITY_BINDING_STORAGE_PAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+             uniform ? 1 : pages.count}};
+}
+
+std::vector<std::uint32_t> modelConstants(const PipelineChoice& choice) {
     std::vector<std::uint32_t> constants(5);
     constants[NIGHTCITY_CONSTANT_MEDIA] = choice.media ? 1 : 0;
     constants[NIGHTCITY_CONSTANT_EMITTER] = emitterConstant(choice.model.emitter);
@@ -69,6 +80,12 @@ std::uint32_t emitterConstant(Emitter emitter) {
                                             : kEmitterPane;
 }
 
+bool PipelineChoice::readsPages() const {
+    Model points;  // the paper's, whatever surfaces show
+    points.surfaces = model.surfaces;
+    return method == Method::march || (method == Method::gauss && model == points);
+}
+
 PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings)
     : choice(settings) {
     surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructure},
@@ -78,6 +95,8 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
     }
     if (choice.method == Method::path) {
         makePath(device);
+    } else if (choice.method == Method::gauss) {
+        makeGauss(device);
     } else {
         makeMarch(device);
     }
@@ -87,17 +106,27 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
 
 void PassPipelines::makeMarch(gpu::Device& device) {
     traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
-    const bool uniform = choice.lights.storage == LightStorage::uniform;
-    march = makePipeline(device, "march", kMarchSpirv,
-                         {{NIGHTCITY_BINDING_UNIFORM_PAGES, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                           uniform ? choice.lights.count : 1},
-                          {NIGHTCITY_BINDING_STORAGE_PAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                           uniform ? 1 : choice.lights.count}},
-                         marchConstants(choice));
+    inScatter = makePipeline(device, "march", kMarchSpirv, pageBindings(choice.lights),
+                             marchConstants(choice));
+}
+
+void PassPipelines::makeGauss(gpu::Device& device) {
+    traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
+    if (choice.lightsSurfaces()) {
+        lit = makePipeline(device, "lit", kLitSpirv, {}, modelConstants(choice));
+    }
+    if (choice.readsPages()) {
+        inScatter = makePipeline(device, "gauss", kGaussPointsSpirv, pageBindings(choice.lights),
+                                 marchConstants(choice));
+    } else {
+        std::vector<std::uint32_t> constants = modelConstants(choice);
+        constants.push_back(choice.uniformHaze ? 1 : 0);
+        inScatter = makePipeline(device, "gauss", kGaussSpirv, {}, constants);
+    }
 }
 
 void PassPipelines::makePath(gpu::Device& device) {
-    path = makePipeline(device, "path", kPathSpirv, {kStructure}, pathConstants(choice));
+    path = makePipeline(device, "path", kPathSpirv, {kStructure}, modelConstants(choice));
 }
 
 void PassPipelines::bind(const GpuScene& scene) {
@@ -110,7 +139,9 @@ void PassPipelines::bind(const GpuScene& scene) {
         return;
     }
     traverse.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
-    scene.lights().bind(march);
+    if (choice.readsPages()) {
+        scene.lights().bind(inScatter);
+    }
 }
 
 std::vector<const gpu::ComputePipeline*> PassPipelines::all() const {
@@ -120,7 +151,10 @@ std::vector<const gpu::ComputePipeline*> PassPipelines::all() const {
     if (choice.method == Method::path) {
         return {&surface, &path, &accumulate};
     }
-    return {&surface, &traverse, &march, &accumulate};
+    if (choice.lightsSurfaces()) {
+        return {&surface, &lit, &traverse, &inScatter, &accumulate};
+    }
+    return {&surface, &traverse, &inScatter, &accumulate};
 }
 
 }  // namespace nightcity

@@ -35,18 +35,26 @@ struct PipelineChoice {
     MarchOrder order = MarchOrder::lights;
     LightPages lights;
     std::uint32_t subdivisions = 25;
-    // Of the path tracer:
+    // Of the path tracer, and of gauss with the pages:
     Model model;
+    bool uniformHaze = false;  // scene/uniform_haze.h
 
     bool operator==(const PipelineChoice&) const = default;
+    // Whether light comes from the packed lists.
+    bool readsPages() const;
+    // Whether a pass lights what surface.comp found.
+    bool lightsSurfaces() const {
+        return method == Method::gauss && model.surfaces == Surfaces::lit;
+    }
 };
 
 struct PassPipelines {
     PipelineChoice choice;
     gpu::ComputePipeline surface;
-    gpu::ComputePipeline traverse;  // with the march and records only
-    gpu::ComputePipeline march;
-    gpu::ComputePipeline path;      // with the path tracer only
+    gpu::ComputePipeline lit;        // with gauss and lit surfaces only
+    gpu::ComputePipeline traverse;   // with march and gauss and records only
+    gpu::ComputePipeline inScatter;  // march, or gauss
+    gpu::ComputePipeline path;       // with the path tracer only
     gpu::ComputePipeline accumulate;  // with records only
 
     PassPipelines(gpu::Device& device, const PipelineChoice& choice);
@@ -57,6 +65,7 @@ struct PassPipelines {
 
 private:
     void makeMarch(gpu::Device& device);
+    void makeGauss(gpu::Device& device);
     void makePath(gpu::Device& device);
 };
 

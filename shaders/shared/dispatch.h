@@ -16,7 +16,7 @@ NIGHTCITY_CONST uint kSegmentSlots = 8;  // segments a ray that one traversal ha
 
 // Bindings of set 0.
 #define NIGHTCITY_BINDING_STRUCTURE 0
-#define NIGHTCITY_BINDING_UNIFORM_PAGES 0  // of march.comp
+#define NIGHTCITY_BINDING_UNIFORM_PAGES 0  // of march.comp and gauss_points.comp
 #define NIGHTCITY_BINDING_STORAGE_PAGES 1
 
 // Instances of the top-level structure, by what their primitives are.
@@ -24,7 +24,7 @@ NIGHTCITY_CONST uint kMaskTriangles = 1u;    // opaque triangles
 NIGHTCITY_CONST uint kMaskMedia = 2u;        // media boxes
 NIGHTCITY_CONST uint kMaskLoosePanes = 4u;   // emitters that stand on no facade
 
-// Specialization constants of march.comp.
+// Specialization constants of march.comp; of gauss_points.comp those of the pages.
 #define NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE 0  // 1: light loop outside the steps
 #define NIGHTCITY_CONSTANT_UNIFORM_PAGES 1   // 1: pages of uniform buffers, 0: storage
 #define NIGHTCITY_CONSTANT_PAGE_COUNT 2
@@ -35,11 +35,12 @@ NIGHTCITY_CONST uint kMaskLoosePanes = 4u;   // emitters that stand on no facade
 #define NIGHTCITY_CONSTANT_AOVS 1            // kAovBeauty and so on (aovs.h): the images to write
 // Specialization constants of surface.comp, and NIGHTCITY_CONSTANT_AOVS.
 #define NIGHTCITY_CONSTANT_TASK 0            // kTaskRecords and so on
-// Specialization constants of path.comp: the model.
+// Specialization constants of path.comp and gauss.comp: the model.
 #define NIGHTCITY_CONSTANT_EMITTER 1         // kEmitterIsotropic and so on
 #define NIGHTCITY_CONSTANT_VISIBILITY 2      // 1: opaque surfaces hide windows
 #define NIGHTCITY_CONSTANT_LISTED 3          // 1: only the windows that a media box lists
 #define NIGHTCITY_CONSTANT_LIT 4             // 1: windows light surfaces
+#define NIGHTCITY_CONSTANT_UNIFORM_HAZE 5    // 1: of gauss.comp, see uniform_haze.h
 
 // What surface.comp does.
 NIGHTCITY_CONST uint kTaskRecords = 0u;  // leaves a SurfaceRecord a ray
@@ -86,6 +87,7 @@ struct LightNode {
     float coneCos;  // of the half angle about `axis` that holds every normal; -1: all directions
     vec3 axis;      // unit vector
     uint child;     // index of the second child, or of a window with kLightLeaf
+    uint count;     // windows below
 };
 
 // A node of a tree over axis-aligned boxes, depth first: what it holds follows it, and
@@ -127,6 +129,7 @@ struct SceneTable {
     uvec2 lightList;       // uint into Window, as MediaBox.firstLight counts them
     uvec2 lightTrails;     // uint a window: bit i says which child leads to it at level i
     uvec2 farField;        // FarFieldTable of far_field.h; 0 for methods without
+    uvec2 mediaNodes;      // BoxNode over the media boxes; 0 without any
     uvec2 occluderNodes;   // BoxNode over the faces; 0 where nothing is opaque but the ground
     uvec2 occluderFaces;   // OccluderFace
     uvec2 occluderCorners; // vec3, m
@@ -156,6 +159,8 @@ struct FrameTable {
     uint centreSample;  // whose depth, normal and ids are kept
     CameraFrame camera;
     vec3 positionLow;   // m, added to camera.position: what float lost of it
+    float tolerance;    // of Method::gauss, relative
+    uint lightCap;      // lit windows of a media box that count, at most
     // Of the path tracer; 0 for other methods.
     uvec2 pathSums;     // PathSums, one a ray of the band
     uvec2 glowSquares;  // vec3, one a pixel of the band: sum over all paths of glow^2

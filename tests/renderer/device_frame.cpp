@@ -8,13 +8,14 @@
 namespace nightcity {
 namespace {
 
-double medianOf(std::vector<double> values) {
+double quantileOf(std::vector<double> values, double share) {
     if (values.empty()) {
         return 0;
     }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ GlowErrors glowErrors(const Frame& frame, const Frame& reference) {
             nonzero.push_back(glow.y);
         }
     }
-    const double floor = 0.01 * medianOf(nonzero);
+    const double floor = 0.01 * quantileOf(nonzero, 0.5);
     std::vector<double> errors;
     double sum = 0, referenceSum = 0;
     for (std::size_t i = 0; i < reference.glow.size(); ++i) {
@@ -70,7 +71,8 @@ GlowErrors glowErrors(const Frame& frame, const Frame& reference) {
         referenceSum += reference.glow[i].y;
     }
     GlowErrors result;
-    result.median = medianOf(errors);
+    result.median = quantileOf(errors, 0.5);
+    result.p95 = quantileOf(errors, 0.95);
     result.worst = *std::max_element(errors.begin(), errors.end());
     result.bias = sum / referenceSum - 1;
     return result;

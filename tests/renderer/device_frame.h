@@ -25,6 +25,7 @@ RenderProduct productOf(const std::string& camera, std::uint32_t width, std::uin
 
 struct GlowErrors {
     double median = 0;
+    double p95 = 0;
     double worst = 0;
     double bias = 0;  // of the mean
 };

@@ -36,6 +36,23 @@ TEST(JudgeOptions, ReferenceIsExactUnlessStepsAreGiven) {
     EXPECT_FALSE(parse({"--method", "march"}).settings.tolerance);
 }
 
+TEST(JudgeOptions, GaussTakesAToleranceAndNoSteps) {
+    EXPECT_EQ(parse({"--method", "gauss"}).settings.tolerance, 0.01);
+    EXPECT_EQ(parse({"--method", "gauss", "--model", "single", "--tolerance", "1e-4"}).settings.tolerance,
+              1e-4);
+    for (const char* tolerance : {"9e-5", "0.2", "nan"}) {
+        EXPECT_NE(refusal({"--method", "gauss", "--tolerance", tolerance}).find("1e-4 to 0.1"),
+                  std::string::npos) << tolerance;
+    }
+    for (const std::vector<const char*>& given :
+         {std::vector<const char*>{"--subdivisions", "5"}, {"--march-order", "steps"},
+          {"--samples", "4"}, {"--scattering", "multiple"}}) {
+        std::vector<const char*> all{"--method", "gauss"};
+        all.insert(all.end(), given.begin(), given.end());
+        EXPECT_NE(refusal(all).find(given[0]), std::string::npos) << refusal(all);
+    }
+}
+
 TEST(JudgeOptions, SwitchesComeAfterTheModel) {
     const Model model = parse({"--method", "reference", "--emitter", "lambertian", "--surfaces", "lit",
                                "--model", "single"}).settings.model;
