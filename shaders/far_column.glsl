@@ -37,6 +37,7 @@ FarWindow windowOfLane(FarWindow mine, uint lane) {
     window.isSphere = subgroupBroadcast(mine.isSphere, lane);
     window.faceCount = subgroupBroadcast(mine.faceCount, lane);
     window.extinction = subgroupBroadcast(mine.extinction, lane);
+    window.corners = subgroupBroadcast(mine.corners, lane);
     return window;
 }
 
@@ -157,7 +158,7 @@ Hidden hiddenFromColumn(uint entry, FarWindow window, Column column, vec3 origin
         return hidden;
     }
     hidden = hiddenByGround(window, origin);
-    uint faces = window.faceCount == kManyFaces ? 0u : window.faceCount;
+    uint faces = window.faceCount > kFarFaces ? 0u : window.faceCount;
     for (uint first = 0u; first < faces; first += gl_SubgroupSize) {
         uint lane = min(first + gl_SubgroupInvocationID, faces - 1u);
         uint mine = FarEntryArray(bakeTable.entries).at[entry].face[lane];
@@ -182,6 +183,16 @@ float seenShare(Hidden hidden, uint i) {
     return 1.0 - 0.25 * float(int(bits.x + bits.y + bits.z + bits.w));
 }
 
+// Of a cluster, by the foot and the top of the column: between the corners of the brick. `place`:
+// of the column, from (0, 0) to (1, 1).
+vec2 seenFromCorners(uint corners, vec2 place) {
+    vec4 weights = vec4((1.0 - place.x) * (1.0 - place.y), place.x * (1.0 - place.y),
+                        (1.0 - place.x) * place.y, place.x * place.y);
+    vec4 low = vec4((uvec4(corners) >> uvec4(0u, 4u, 8u, 12u)) & 0xfu);
+    vec4 high = vec4((uvec4(corners) >> uvec4(16u, 20u, 24u, 28u)) & 0xfu);
+    return 0.25 * vec2(dot(low, weights), dot(high, weights));
+}
+
 // The same where an entry has more faces than it could list.
 float seenThroughMany(Hidden hidden, FarWindow window, vec3 place, uint i, vec3 origin) {
     for (uint p = 0u; p < 4u; ++p) {
@@ -192,23 +203,27 @@ float seenThroughMany(Hidden hidden, FarWindow window, vec3 place, uint i, vec3 
     return seenShare(hidden, i);
 }
 
-// A window that is far enough to be a point with a second-order term, through one haze, with
-// all faces listed.
+// A window that is far enough to be a point with a second-order term, with all faces listed.
 bool isQuick(FarWindow window, FarFieldTable field) {
     vec3 gap = max(abs(window.centre) - 0.5 * field.brickSide, vec3(0.0));
-    return window.extinction >= 0.0 && window.faceCount != kManyFaces && !window.isSphere &&
+    return window.faceCount != kManyFaces && !window.isSphere &&
            (kFarEmitter != kEmitterPane || dot(gap, gap) > window.exactBelow);
 }
 
 struct QuickColumn {
     vec3 foot, step;    // of the column in the window's frame, m
     vec2 secondOrder;   // half sides^2, m^2
-    float extinction;   // 1/m
+    vec3 extinction;    // 1/m, mean of the ways to nodes 0, 4 and 8
     float perDistance;  // of the solid angle and its like: times height / d^3, per watt
     float inverseRadius;  // 1 / R^2
 };
 
-QuickColumn quickColumn(FarWindow window, Column column, FarFieldTable field) {
+float meanExtinction(FarWindow window, vec3 place, vec3 origin, FarFieldTable field) {
+    return depthThroughMedia(window.centre, place, origin, field) /
+           length(place - window.centre);
+}
+
+QuickColumn quickColumn(FarWindow window, Column column, vec3 origin, FarFieldTable field) {
     vec3 way = column.foot - window.centre;
     QuickColumn quick;
     quick.foot = vec3(dot(way, window.u), dot(way, window.v), dot(way, window.normal));
@@ -216,7 +231,13 @@ QuickColumn quickColumn(FarWindow window, Column column, FarFieldTable field) {
     quick.secondOrder = kFarEmitter == kEmitterPane
                             ? vec2(window.a * window.a, window.b * window.b)
                             : vec2(0.0);
-    quick.extinction = window.extinction;
+    quick.extinction = vec3(window.extinction);
+    if (window.extinction < 0.0) {
+        for (uint i = 0u; i < 3u; ++i) {
+            vec3 place = column.foot + vec3(0.0, 0.0, 4.0 * float(i) * column.spacing);
+            quick.extinction[i] = meanExtinction(window, place, origin, field);
+        }
+    }
     quick.perDistance = kFarEmitter == kEmitterIsotropic ? 0.5 / kTurn : 2.0 / kTurn;
     quick.inverseRadius = 1.0 / (field.nearRadius * field.nearRadius);
     return quick;
@@ -236,7 +257,9 @@ float quickFluence(QuickColumn quick, uint i) {
         vec2 across = 5.0 * point.xy * point.xy * inverse - 1.0;
         clear *= 1.0 + 0.5 * inverse * dot(quick.secondOrder, across);
     }
-    return farShare(squared * quick.inverseRadius) * clear * exp(-quick.extinction * distance);
+    float extinction = i <= 4u ? mix(quick.extinction.x, quick.extinction.y, 0.25 * float(i))
+                               : mix(quick.extinction.y, quick.extinction.z, 0.25 * float(i) - 1.0);
+    return farShare(squared * quick.inverseRadius) * clear * exp(-extinction * distance);
 }
 
 #endif

@@ -5,9 +5,7 @@
 #ifndef NIGHTCITY_SHADERS_FAR_HIDING_GLSL
 #define NIGHTCITY_SHADERS_FAR_HIDING_GLSL
 
-#include "convex_face.glsl"
-#include "far_bake.glsl"
-#include "occluders.glsl"
+#include "far_way.glsl"
 
 // An inner light of more faces than this is not asked about further: its windows are.
 const uint kMostFacesAsked = 24u;
@@ -93,6 +91,60 @@ bool findFaces(FarLight light, vec3 way, vec3 brickCentre, vec3 brickHalf, out F
         }
     }
     return true;
+}
+
+// The light, or a part of it, that stands for it: three levels down at most, by three bits.
+vec3 partOf(uint index, uint bits) {
+    FarLight light = FarLightArray(bakeTable.lights).at[index];
+    for (uint level = 0u; level < 3u && light.second != 0u; ++level) {
+        index = (bits >> level & 1u) == 0u ? index + 1u : light.second;
+        light = FarLightArray(bakeTable.lights).at[index];
+    }
+    return WindowArray(sceneTable.windows).at[light.window].centre;
+}
+
+// Quarters of the light that a place sees.
+uint seenFrom(vec3 place, uint index, uint bits, vec3 brickCentre) {
+    uint seen = 4u;
+    for (uint k = 0u; k < 2u && kFarVisibility != 0u; ++k) {
+        vec3 part = partOf(index, k == 0u ? bits : 7u - bits) - brickCentre;
+        seen -= isHiddenByAny(part, place, brickCentre) ? 2u : 0u;
+    }
+    return seen;
+}
+
+// What the corners of a brick see of a light, as FarEntry has it. Two of its windows from each,
+// others from each neighbour but the same for all bricks of a corner. For a corner in a solid the
+// others speak; where all are, the brick's centre.
+uint seenFromCorners(uint index, uvec3 cell, vec3 brickCentre, vec3 brickHalf) {
+    uint corners = 0u;
+    uint sum = 0u;
+    uint inAir = 0u;
+    uint solid = 0u;
+    for (uint c = 0u; c < 8u; ++c) {
+        uvec3 offset = uvec3(c, c >> 1, c >> 2) & 1u;
+        uvec3 place = offset * kBrickCells;
+        uint node = (place.z * (kBrickCells + 1u) + place.y) * (kBrickCells + 1u) + place.x;
+        uint word = UintArray(bakeTable.sides).at[groupBrick() * kBrickSideWords + (node >> 5)];
+        if ((word >> (node & 31u) & 1u) != 0u) {
+            solid |= 1u << c;
+            continue;
+        }
+        uvec3 parity = (cell + offset) & 1u;
+        uint bits = parity.x | parity.y << 1 | parity.z << 2;
+        uint seen = seenFrom((vec3(offset) * 2.0 - 1.0) * brickHalf, index, bits, brickCentre);
+        corners |= seen << (4u * c);
+        sum += seen;
+        inAir += 1u;
+    }
+    if (inAir == 0u) {
+        sum = seenFrom(vec3(0.0), index, 0u, brickCentre);
+        inAir = 1u;
+    }
+    for (uint c = 0u; c < 8u; ++c) {
+        corners |= (solid >> c & 1u) * ((sum + inAir / 2u) / inAir) << (4u * c);
+    }
+    return corners;
 }
 
 #endif

@@ -13,6 +13,8 @@
 
 layout(local_size_x = kGroupSize) in;
 
+const float kManyBricks = 3.0;  // sides of a brick, distance of a window with many faces between
+
 // Lights still to be looked at. A round takes the last kGroupSize of them and puts
 // back at most two for each: as deep as the tree is, no more than kFarStack are there.
 shared uint stack[kFarStack];
@@ -61,18 +63,47 @@ float largestFluence(FarLight light, vec3 way, vec3 brickHalf, float nearRadius)
     return 2.0 * light.power / (3.14159265 * max(dot(gap, gap), 0.25 * nearRadius * nearRadius));
 }
 
-void append(uint index, FarLight light, vec3 brickCentre, vec3 brickHalf, FarBrick brick,
-            float nearRadius) {
+// A light so small from here, with windows that face one way, is one point, seen from a brick
+// that is as small from there: its sight is interpolated. From where the share of the near
+// part ends.
+bool isCluster(FarLight light, vec3 way, vec3 brickHalf, float nearRadius) {
+    float gap = length(max(abs(way) - brickHalf, vec3(0.0)));
+    float reach = length(light.reach);
+    return max(reach, length(brickHalf)) <= bakeTable.spread * gap && gap >= nearRadius + reach &&
+           (light.coneCos >= kClusterCos || kFarEmitter == kEmitterIsotropic);
+}
+
+// 1/m, the mean on the way to the brick; negative where nodes must ask themselves.
+float extinctionOnTheWay(FarLight light, vec3 way, vec3 brickCentre, FarBrick brick,
+                         bool cluster) {
+    FarFieldTable field = bakedField;
+    if (brick.mediumCount == 1u && light.medium != kNone &&
+        UintArray(field.mediumList).at[brick.firstMedium] == light.medium) {
+        return MediaArray(field.media).at[light.medium].extinction;
+    }
+    return cluster ? depthThroughMedia(way, vec3(0.0), brickCentre, field) / length(way) : -1.0;
+}
+
+void append(uint index, FarLight light, bool cluster, vec3 brickCentre, vec3 brickHalf,
+            FarBrick brick, float nearRadius) {
     vec3 way = light.centre - brickCentre;
     FarEntry entry;
-    if (!findFaces(light, way, brickCentre, brickHalf, entry)) {
+    if (!cluster && !findFaces(light, way, brickCentre, brickHalf, entry)) {
         return;
     }
+    // Too many faces to list: sight from the corners will do where the window is far.
+    cluster = cluster || (entry.faceCount == kManyFaces &&
+                          isCluster(light, way, brickHalf, kManyBricks * 2.0 * brickHalf.x));
+    if (cluster) {
+        uvec3 cell = Uvec3Array(bakeTable.brickCells).at[groupBrick()];
+        entry.faceCount = kCluster;
+        entry.face[0] = seenFromCorners(index, cell, brickCentre, brickHalf);
+        if (entry.face[0] == 0u) {
+            return;
+        }
+    }
     entry.light = index;
-    entry.medium = brick.mediumCount == 1u && light.medium != kNone &&
-                           UintArray(bakedField.mediumList).at[brick.firstMedium] == light.medium
-                       ? light.medium
-                       : kNone;
+    entry.extinction = extinctionOnTheWay(light, way, brickCentre, brick, cluster);
     float most = largestFluence(light, way, brickHalf, nearRadius);
     atomicAdd(bound, 1u + uint(most / bakeTable.boundUnit));
     if (!hasChanged(index)) {
@@ -112,8 +143,11 @@ void main() {
             FarLight light = FarLightArray(bakeTable.lights).at[index];
             vec3 way = brickCentre - light.centre;
             if (!facesAway(light, way, brickHalf)) {
-                if (isWindow(light)) {
-                    append(index, light, brickCentre, brickHalf, brick, field.nearRadius);
+                bool cluster = !isWindow(light) &&
+                               isCluster(light, way, brickHalf, field.nearRadius);
+                if (cluster || isWindow(light)) {
+                    append(index, light, cluster, brickCentre, brickHalf, brick,
+                           field.nearRadius);
                 } else if (!isHidden(light, -way, brickCentre, brickHalf)) {
                     uint slot = atomicAdd(stackSize, 2u);
                     stack[slot] = index + 1u;

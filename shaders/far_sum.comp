@@ -42,7 +42,7 @@ void main() {
     for (uint first = 0u; first < entries; first += gl_SubgroupSize) {
         uint count = min(gl_SubgroupSize, entries - first);
         uint mine = firstEntry + first + min(gl_SubgroupInvocationID, count - 1u);
-        FarWindow read = farWindow(mine, origin, field);
+        FarWindow read = farWindow(mine, origin);
         uint light = FarEntryArray(bakeTable.entries).at[mine].light;
         vec3 readEmission = Vec3Array(bakeTable.emission).at[light] * perUnit;
         vec3 readBaked = Vec3Array(bakeTable.baked).at[light] * perUnit;
@@ -54,8 +54,18 @@ void main() {
             }
             vec3 emission = subgroupBroadcast(readEmission, e);
             vec3 baked = subgroupBroadcast(readBaked, e);
+            if (window.faceCount == kCluster) {
+                QuickColumn quick = quickColumn(window, column, origin, field);
+                vec2 place = column.foot.xy / field.brickSide + 0.5;
+                vec2 seen = seenFromCorners(window.corners, place);
+                [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+                    float share = mix(seen.x, seen.y, float(i) / float(kBrickCells));
+                    sum[i] += inUnits(share * quickFluence(quick, i), emission, baked);
+                }
+                continue;
+            }
             if (isQuick(window, field)) {
-                QuickColumn quick = quickColumn(window, column, field);
+                QuickColumn quick = quickColumn(window, column, origin, field);
                 [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
                     sum[i] +=
                         inUnits(seenShare(hidden, i) * quickFluence(quick, i), emission, baked);

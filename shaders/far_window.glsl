@@ -5,13 +5,9 @@
 #ifndef NIGHTCITY_SHADERS_FAR_WINDOW_GLSL
 #define NIGHTCITY_SHADERS_FAR_WINDOW_GLSL
 
-#include "convex_face.glsl"
-#include "far_bake.glsl"
-#include "occluders.glsl"
+#include "far_way.glsl"
 #include "transport/near_far_split.h"
 #include "transport/pane_solid_angle.h"
-
-NIGHTCITY_ARRAY(MediaArray, FarMedium)
 
 const float kTurn = 6.28318530717958648;
 const float kExactSides = 3.0;  // nearer than so many longer sides the solid angle is exact
@@ -28,19 +24,35 @@ struct FarWindow {
     float exactBelow;   // m^2
     bool isSphere;
     uint faceCount;     // as FarEntry has it
-    float extinction;   // 1/m, on all ways to the brick; negative: ask the media
+    float extinction;   // and this
+    uint corners;       // of a cluster: what the corners of the brick see
 };
 
-FarWindow farWindow(uint index, vec3 origin, FarFieldTable field) {
-    FarEntryArray entries = FarEntryArray(bakeTable.entries);
-    uint light = entries.at[index].light;
-    Window window =
-        WindowArray(sceneTable.windows).at[FarLightArray(bakeTable.lights).at[light].window];
+FarWindow clusterWindow(FarLight light, vec3 origin) {
     FarWindow found;
-    uint medium = entries.at[index].medium;
-    found.extinction = medium == kNone ? -1.0 : MediaArray(field.media).at[medium].extinction;
+    found.centre = light.centre - origin;
+    found.a = 0.0;
+    found.b = 0.0;
+    found.normal = light.axis;
+    vec3 other = abs(light.axis.z) < 0.7 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
+    found.u = normalize(cross(other, light.axis));
+    found.v = cross(light.axis, found.u);
+    found.exactBelow = 0.0;
+    found.isSphere = false;
+    return found;
+}
+
+FarWindow farWindow(uint index, vec3 origin) {
+    FarEntryArray entries = FarEntryArray(bakeTable.entries);
+    FarLight light = FarLightArray(bakeTable.lights).at[entries.at[index].light];
+    FarWindow found = clusterWindow(light, origin);
     found.faceCount = entries.at[index].faceCount;
-    found.centre = window.centre - origin;
+    found.extinction = entries.at[index].extinction;
+    found.corners = entries.at[index].face[0];
+    if (light.second != 0u) {
+        return found;
+    }
+    Window window = WindowArray(sceneTable.windows).at[light.window];
     found.a = length(window.halfU);
     found.b = length(window.halfV);
     found.u = window.halfU / found.a;
@@ -59,41 +71,6 @@ bool isPane(FarWindow window) {
 vec3 panePoint(FarWindow window, uint index) {
     vec2 at = isPane(window) ? kPanePoint[index] : vec2(0.0);
     return window.centre + at.x * window.a * window.u + at.y * window.b * window.v;
-}
-
-bool isHiddenByAny(vec3 from, vec3 to, vec3 origin) {
-    Between between = betweenBoxAndStretch(origin + from, vec3(0.0), to - from, to - from);
-    uint walk = 0u;
-    for (uint index = nextOccluder(walk, between); index != kNone;
-         index = nextOccluder(walk, between)) {
-        OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
-        if (faceCrossing(face, origin, from, to) >= 0.0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// Of the straight way, through all media on it.
-float depthThroughMedia(vec3 from, vec3 to, vec3 origin, FarFieldTable field) {
-    vec3 way = to - from;
-    vec3 start = origin + from;
-    Between between = betweenBoxAndStretch(start, vec3(0.0), way, way);
-    vec3 pace = paceOf(way);
-    float depth = 0.0;
-    uint walk = 0u;
-    for (uint index = nextBoxBetween(bakeTable.mediaNodes, walk, between); index != kNone;
-         index = nextBoxBetween(bakeTable.mediaNodes, walk, between)) {
-        FarMedium medium = MediaArray(field.media).at[index];
-        vec3 toLo = (medium.lo - start) * pace;
-        vec3 toHi = (medium.hi - start) * pace;
-        vec3 first = min(toLo, toHi);
-        vec3 last = max(toLo, toHi);
-        float begin = max(max(first.x, first.y), max(first.z, 0.0));
-        float end = min(min(last.x, last.y), min(last.z, 1.0));
-        depth += medium.extinction * max(end - begin, 0.0);
-    }
-    return depth * length(way);
 }
 
 // m^-2: fluence per watt in clear air, all of the window seen.

@@ -23,7 +23,7 @@ static_assert(sizeof(FarBrick) == 16);
 static_assert(sizeof(FarFieldTable) == 5 * 8 + 36);
 static_assert(sizeof(FarLight) == 56);
 static_assert(sizeof(FarEntry) == 12 + 4 * kFarFaces);
-static_assert(sizeof(FarBakeTable) == 13 * 8 + 24);
+static_assert(sizeof(FarBakeTable) == 13 * 8 + 28);
 
 constexpr std::uint32_t kBatchBricks = 512;
 constexpr std::uint32_t kFirstCapacity = 512;  // entries a brick
@@ -69,6 +69,7 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
     layout_ = layoutFarField(media, settings.spacing, settings.memoryBytes);
     lights_ = buildFarLights(scene, media, settings.emitter);
     bake_.skyHeight = skyHeight(scene);
+    bake_.spread = settings.spread;
     uploadLayout(media);
     uploadLights();
     writeTables();

@@ -20,6 +20,8 @@ NIGHTCITY_CONST uint kColumnThreads = 96u;  // at least the columns of a brick
 NIGHTCITY_CONST uint kFarStack = 6144u;     // lights that a group keeps for later, most
 NIGHTCITY_CONST uint kFarFaces = 29u;       // of one entry
 NIGHTCITY_CONST uint kManyFaces = 0xffu;    // more: each node walks the tree of occluders
+NIGHTCITY_CONST uint kCluster = 0x100u;     // sight is that from the brick's corners
+NIGHTCITY_CONST float kClusterCos = 0.95f;  // of the widest cone of normals that is one direction
 
 // A node of the tree over all windows, lit or not. The first child of an inner node follows it.
 struct FarLight {
@@ -33,12 +35,13 @@ struct FarLight {
     uint medium;    // the one that holds the bounds, into FarMedium; kNone: no single one does
 };
 
-// A window that may light a brick, and what may stand between.
+// A window that may light a brick, and what may stand between; or a cluster of windows that
+// is far enough to be one point.
 struct FarEntry {
     uint light;
-    uint medium;     // that fills all of the way; kNone: ask the media
-    uint faceCount;  // or kManyFaces
-    uint face[kFarFaces];
+    float extinction;  // 1/m, mean of all ways to the brick; negative: ask the media
+    uint faceCount;    // or kManyFaces, or kCluster
+    uint face[kFarFaces];  // of a cluster: 4 bits a corner of the brick, quarters that are seen
 };
 
 struct FarBakeTable {
@@ -61,6 +64,7 @@ struct FarBakeTable {
     uint update;        // 1: only windows that changed; the units stay
     float skyHeight;    // m, above all that is opaque
     float boundUnit;    // W m^-2, of the sums of bounds
+    float spread;       // a cluster's half size is at most this share of its distance
 };
 
 NIGHTCITY_END

@@ -174,7 +174,8 @@ TEST(FarField, IsZeroInACourtyardClosedByWalls) {
 
 class FarFieldStates : public testing::Test {
 protected:
-    FarFieldStates() : scene_(paperCity(1).load()) {}
+    // With clusters of windows.
+    FarFieldStates() : scene_(paperCity(1).load()) { settings_.spread = 0.5f; }
 
     std::vector<glm::uvec2> bakedAfresh(const std::vector<std::uint8_t>& on) {
         device().sync(scene_, settings_);  // of all windows
@@ -229,6 +230,26 @@ TEST_F(FarFieldStates, TheOrderOfTheWindowsDoesNotMatter) {
     const auto nodes = device().nodes();
     device().sync(city.load(), settings_);
     EXPECT_EQ(device().nodes(), nodes);
+}
+
+TEST(FarField, ClustersKeepTheLight) {
+    const FlatScene scene = paperCity(2).load();
+    const std::vector<glm::vec3> places = placesInTheAir(scene, 2000, 6);
+    FarFieldSettings settings = spaced(1);
+    const auto sumOf = [&](float spread) {
+        settings.spread = spread;
+        device().sync(scene, settings);
+        glm::dvec3 sum(0);
+        for (const glm::vec3& value : device().fluence(places)) {
+            sum += glm::dvec3(value);
+        }
+        return sum;
+    };
+    const glm::dvec3 each = sumOf(0), clusters = sumOf(0.3f);
+    EXPECT_NE(each, clusters);
+    for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_NEAR(clusters[channel] / each[channel], 1, 0.01);
+    }
 }
 
 TEST(FarField, IntegratesThroughDifferentMedia) {

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Straight ways between two points: whether anything opaque is on them, and how much haze.
+// Places are relative to `origin`, a point near by.
+#ifndef NIGHTCITY_SHADERS_FAR_WAY_GLSL
+#define NIGHTCITY_SHADERS_FAR_WAY_GLSL
+
+#include "convex_face.glsl"
+#include "far_bake.glsl"
+#include "occluders.glsl"
+
+NIGHTCITY_ARRAY(MediaArray, FarMedium)
+
+bool isHiddenByAny(vec3 from, vec3 to, vec3 origin) {
+    Between between = betweenBoxAndStretch(origin + from, vec3(0.0), to - from, to - from);
+    uint walk = 0u;
+    for (uint index = nextOccluder(walk, between); index != kNone;
+         index = nextOccluder(walk, between)) {
+        OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
+        if (faceCrossing(face, origin, from, to) >= 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Of the straight way, through all media on it.
+float depthThroughMedia(vec3 from, vec3 to, vec3 origin, FarFieldTable field) {
+    vec3 way = to - from;
+    vec3 start = origin + from;
+    Between between = betweenBoxAndStretch(start, vec3(0.0), way, way);
+    vec3 pace = paceOf(way);
+    float depth = 0.0;
+    uint walk = 0u;
+    for (uint index = nextBoxBetween(bakeTable.mediaNodes, walk, between); index != kNone;
+         index = nextBoxBetween(bakeTable.mediaNodes, walk, between)) {
+        FarMedium medium = MediaArray(field.media).at[index];
+        vec3 toLo = (medium.lo - start) * pace;
+        vec3 toHi = (medium.hi - start) * pace;
+        vec3 first = min(toLo, toHi);
+        vec3 last = max(toLo, toHi);
+        float begin = max(max(first.x, first.y), max(first.z, 0.0));
+        float end = min(min(last.x, last.y), min(last.z, 1.0));
+        depth += medium.extinction * max(end - begin, 0.0);
+    }
+    return depth * length(way);
+}
+
+#endif
