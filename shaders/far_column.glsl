@@ -13,11 +13,14 @@
 #include "far_window.glsl"
 
 const uint kColumnNodes = kBrickCells + 1u;
+const float kNearestPoint = 1e-6;  // m, from a point source: closer nodes count as so far
 const uint kAllNodes = (1u << kColumnNodes) - 1u;
 
 struct Column {
     vec3 foot;      // of node 0, from the brick's centre, m
     float spacing;  // m
+    vec3 hazeLo, hazeHi;  // of the brick's first medium, from its centre, m
+    bool oneHaze;         // in all of the brick
 };
 
 // Bit i of each: whether node i does not see that point of the pane.
@@ -204,9 +207,10 @@ float seenThroughMany(Hidden hidden, FarWindow window, vec3 place, uint i, vec3 
 }
 
 // A window that is far enough to be a point with a second-order term, with all faces listed.
-bool isQuick(FarWindow window, FarFieldTable field) {
+bool isQuick(FarWindow window, Column column, FarFieldTable field) {
     vec3 gap = max(abs(window.centre) - 0.5 * field.brickSide, vec3(0.0));
     return window.faceCount != kManyFaces && !window.isSphere &&
+           (window.extinction >= 0.0 || column.oneHaze) &&
            (kFarEmitter != kEmitterPane || dot(gap, gap) > window.exactBelow);
 }
 
@@ -220,7 +224,7 @@ struct QuickColumn {
 
 float meanExtinction(FarWindow window, vec3 place, vec3 origin, FarFieldTable field) {
     return depthThroughMedia(window.centre, place, origin, field) /
-           length(place - window.centre);
+           max(length(place - window.centre), kNearestPoint);
 }
 
 QuickColumn quickColumn(FarWindow window, Column column, vec3 origin, FarFieldTable field) {
@@ -234,7 +238,9 @@ QuickColumn quickColumn(FarWindow window, Column column, vec3 origin, FarFieldTa
     quick.extinction = vec3(window.extinction);
     if (window.extinction < 0.0) {
         for (uint i = 0u; i < 3u; ++i) {
+            // Beyond the haze goes on what is at its border: there the field has no kink.
             vec3 place = column.foot + vec3(0.0, 0.0, 4.0 * float(i) * column.spacing);
+            place = clamp(place, column.hazeLo, column.hazeHi);
             quick.extinction[i] = meanExtinction(window, place, origin, field);
         }
     }
@@ -246,7 +252,7 @@ QuickColumn quickColumn(FarWindow window, Column column, vec3 origin, FarFieldTa
 // m^-2: far part of the fluence per watt at node i.
 float quickFluence(QuickColumn quick, uint i) {
     vec3 point = quick.foot + float(i) * quick.step;
-    float squared = dot(point, point);
+    float squared = max(dot(point, point), kNearestPoint * kNearestPoint);
     float inverse = 1.0 / squared;
     float distance = sqrt(squared);
     float clear = quick.perDistance * inverse;

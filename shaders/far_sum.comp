@@ -28,6 +28,10 @@ void main() {
     Column column;
     column.spacing = brickSpacing(field, brick);
     column.foot = column.spacing * vec3(thread % side, thread / side, 0u) - 0.5 * field.brickSide;
+    FarMedium haze = MediaArray(field.media).at[UintArray(field.mediumList).at[brick.firstMedium]];
+    column.hazeLo = haze.lo - origin;
+    column.hazeHi = haze.hi - origin;
+    column.oneHaze = brick.mediumCount == 1u;
     float perUnit = 1.0 / FloatArray(bakeTable.units).at[groupBrick()];
     uint firstEntry = groupInBatch() * bakeTable.entryCapacity;
     uint entries = UintArray(bakeTable.entryCounts).at[groupInBatch()];
@@ -64,7 +68,7 @@ void main() {
                 }
                 continue;
             }
-            if (isQuick(window, field)) {
+            if (isQuick(window, column, field)) {
                 QuickColumn quick = quickColumn(window, column, origin, field);
                 [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
                     sum[i] +=
