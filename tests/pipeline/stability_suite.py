@@ -37,7 +37,7 @@ def check(sweep: Sweep, lab: Lab, method: str) -> None:
     """The sweep holds at its quick points, or fails as it is known to: by about the known size."""
     outcome = run(sweep, lab, METHODS[method], quick=True)
     failure = sweep.failures.get(method)
-    found = f"{sweep.name}: {outcome.errors.error} +- {outcome.errors.noise}"
+    found = f"{sweep.name}: {outcome.errors.error} +- {outcome.errors.noise} {outcome.fault}"
     if failure is None:
         assert outcome.holds, f"{found}: above {sweep.bar}"
     else:

@@ -77,6 +77,8 @@ class Lab:
         scene = self._written(shot.scene)
         wanted = list(frames or range(1, shot.scene.frames + 1))
         arguments = [*method.arguments(shot.model), *options]
+        if shot.size == (1, 1) and method.on_device:
+            arguments += ["--primary", "rays"]  # a raster has no field of view as narrow as a ray
         copies = method.replicas if shot.size == (1, 1) else 1
         if copies == 1:
             return self._run(scene, shot.size, shot.pixels, wanted, arguments)

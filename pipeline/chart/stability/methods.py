@@ -44,6 +44,7 @@ class Method:
     paper_only: bool = False  # knows the paper's model alone
     replicas: int = 1  # of a single ray, side by side: a noisy method's are independent
     orders: bool = False  # knows multiple scattering
+    on_device: bool = True
 
     def arguments(self, model: Model) -> list[str]:
         """For nightcity-render."""
@@ -64,10 +65,10 @@ METHODS = {
         Method("gauss", ("--tolerance", "0.001"), "#2f6db5", "o"),
         Method("field", ("--tolerance", "0.01"), "#3a8f4d", "^"),
         Method("path", ("--samples", "256"), "#8064a2", "x", replicas=128, orders=True),
-        Method("reference", ("--tolerance", "0.001"), "#404040", "."),
+        Method("reference", ("--tolerance", "0.001"), "#404040", ".", on_device=False),
     )
 }
-JUDGE = Method("reference", ("--tolerance", "1e-5"), "#000000", "")  # exact to 1e-6
+JUDGE = METHODS["reference"].with_option("--tolerance", 1e-5)  # exact to 1e-6
 
 
 @cache

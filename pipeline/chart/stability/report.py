@@ -105,7 +105,9 @@ def _causes(outcomes: Outcomes) -> list[str]:
     for name, found in outcomes.items():
         for outcome in found:
             failure = outcome.sweep.failures.get(outcome.method)
-            if not outcome.holds and failure:
+            if outcome.fault:
+                lines.append(f"* `{outcome.method}`, {name}: {outcome.fault}")
+            elif not outcome.holds and failure:
                 lines.append(f"* `{outcome.method}`, {name}: {failure.cause}.")
         note = found[0].sweep.note if found else ""
         if note:

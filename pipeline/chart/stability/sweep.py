@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from nightcity.chart.stability.lab import Glow, Lab, Shot
 from nightcity.chart.stability.methods import Method
+from nightcity.errors import NightcityError
 
 FloatArray = NDArray[np.float64]
 
@@ -88,7 +89,7 @@ class Axis:
 @dataclass(frozen=True)
 class Failure:
     """A method that is known to fail a sweep: why, and how large its worst error is, at the quick
-    points. A worst error outside the range is news: a change for the worse, or a mend."""
+    points. A worst error outside the range is news. ``least`` is 0 where a mend is awaited."""
 
     cause: str
     least: float
@@ -124,6 +125,7 @@ class Outcome:
     method: str
     points: FloatArray
     errors: Errors
+    fault: str = ""  # of a renderer that gave up; the errors are infinite
 
     @property
     def holds(self) -> bool:
@@ -146,7 +148,13 @@ def run(sweep: Sweep, lab: Lab, method: Method, quick: bool) -> Outcome:
     """Measure one sweep with one method."""
     points = sweep.axis.points(quick)
     points = points[points <= sweep.most.get(method.name, np.inf)]
-    return Outcome(sweep, method.name, points, sweep.measure(lab, method, points))
+    try:
+        return Outcome(sweep, method.name, points, sweep.measure(lab, method, points))
+    except NightcityError as error:
+        if error.exit_code != NightcityError.exit_code:  # usage, scene, device: not of the method
+            raise
+        lost = Errors(np.full(len(points), np.inf), np.zeros(len(points)))
+        return Outcome(sweep, method.name, points, lost, str(error))
 
 
 def against(
