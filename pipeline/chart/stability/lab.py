@@ -15,7 +15,8 @@ from nightcity.chart.runs import write_pixels
 from nightcity.chart.stability.methods import JUDGE, PLAIN, Method, Model
 from nightcity.chart.stability.tiny_scene import CAMERA, TinyScene
 from nightcity.errors import NightcityError
-from nightcity.render import flat_scene, run_renderer
+from nightcity.export.export_stage import export_stage
+from nightcity.render import run_renderer
 
 FloatArray = NDArray[np.float64]
 
@@ -93,8 +94,7 @@ class Lab:
             path = self._folder / f"{len(self._stages)}.usda"
             path.write_text(stage)
             self._stages[stage] = path.with_suffix(".exported")
-            with flat_scene(path, keep=self._stages[stage]):
-                pass
+            export_stage(path, self._stages[stage])
         pixels = [(x, y) for y in range(side) for x in range(side)]
         scene, arguments = self._stages[stage], method.arguments(model)
         return self._run(scene, (side, side), pixels, [1], arguments)

@@ -36,7 +36,7 @@ def _town(mutant: int, power: float) -> Shot:
     for lo, hi in (((-32, -32, 0), (32, 0, 24)), ((-32, 0, 0), (32, 32, 24))):
         if mutant != 3 or lo[1] == 0:
             scene.haze(lo, hi, 0.02)
-    for x in (-3, -1, 1, 3):
+    for x in (-3, -1.5, 1.5, 3):  # not in the plane of a wall
         scene.look((x, -40, 6 + x), (0, 1, 0.1))
         scene.look((20, 4 * x, 40), (-20, 0.1, -22))
     return Shot(scene, Model(visibility="none" if mutant == 2 else "full"))
