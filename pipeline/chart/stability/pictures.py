@@ -93,6 +93,15 @@ def _label(axes: Axes, sweep: Sweep) -> None:
     axes.set_yscale("log")
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, 0.5 * _LEAST), max(high * 3, 2 * sweep.bar, 1e-6))
-    axes.set(title=sweep.title, xlabel=sweep.axis.label, ylabel=f"relative error to: {sweep.truth}")
-    axes.yaxis.label.set_size(8)
+    axes.set(xlabel=sweep.axis.label, ylabel="relative error")
+    axes.set_title(f"{sweep.title}\n", fontsize=12)
+    axes.text(
+        0.5, 1.02, f"against: {sweep.truth}", transform=axes.transAxes, fontsize=9, ha="center"
+    )  # fmt: skip
+    if axes.get_ylim()[0] <= _LEAST:
+        axes.axhline(_LEAST, color="0.8", linewidth=1)
+        axes.annotate(
+            "exact", (1, _LEAST), xycoords=("axes fraction", "data"), xytext=(-4, 3),
+            textcoords="offset points", fontsize=8, color="0.4", ha="right",
+        )  # fmt: skip
     axes.grid(which="major", color="0.9")
