@@ -60,9 +60,15 @@ float windowOver(Window window, Stretch stretch, LightGroup group, vec2 range, f
         vec3 offset = spread * ((2.0 * column + 1.0 - pieces) * emitter.halfU +
                                 (2.0 * row + 1.0 - pieces) * emitter.halfV);
         PointView view = pointView(window.centre, offset, stretch);
+        // Not the middles of the pieces see for them: of those a shadow's edge along the pane
+        // would take a whole row at once.
+        vec2 place = spread == 1.0 ? vec2(2.0 * row + 1.0, 2.0 * column + 1.0) / pieces - 1.0
+                                   : vec2(0.0);
+        PointView eye = pointView(window.centre,
+                                  offset + place.x * emitter.halfU + place.y * emitter.halfV, stretch);
         float from = range.x;
         while (from < range.y) {
-            Shadows shadows = shadowsOn(view, group, vec2(from, range.y));
+            Shadows shadows = shadowsOn(eye, group, vec2(from, range.y));
             while (from < shadows.horizon) {
                 vec2 seen = firstSeen(shadows);
                 if (seen.y - seen.x > kSliver * stretch.span) {
@@ -91,7 +97,7 @@ vec3 windowGlow(uint index, Stretch stretch, LightGroup group, vec2 range, float
     float pieces = isCut ? 2.0 : 1.0;
     float spread = pieces;
     float sum = 0.0;
-    // Each piece of a pane is seen or hidden as its middle is: they are halved until that
+    // Each piece of a pane is seen or hidden as one point of it is: they are halved until that
     // matters no more. What only an edge of the pane sees, or does not, pieces that are
     // put into its corners tell before. Errors of many windows add in squares, hence the root.
     for (bool isDone = false; !isDone; spread = 1.0) {
