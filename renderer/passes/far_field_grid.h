@@ -28,7 +28,7 @@ struct FarFieldSettings {
     Visibility visibility = Visibility::full;
     float spacing = 1;     // of the nodes, m
     float nearRadius = 4;  // R of near_far_split.h, m; at least 4 spacings keep 1 %
-    float spread = 0.12f;  // windows within this share of their distance are one; 0: never
+    float spread = 0.06f;  // windows within this share of their distance are one; 0: never
     std::uint64_t memoryBytes = 1'000'000'000;  // of the nodes, most
 
     bool operator==(const FarFieldSettings&) const = default;
