@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One-dimensional quadrature to a tolerance: the 15-point Gauss-Kronrod rule of
-// QUADPACK (Piessens et al. 1983), the worst piece halved until the error holds.
+// One-dimensional quadrature to a tolerance: Gauss-Kronrod rules of QUADPACK
+// (Piessens et al. 1983), the worst piece halved until the error holds.
 #pragma once
 
 #include <algorithm>
@@ -40,14 +40,16 @@ struct QuadraturePiece {
     Estimate estimate;
 };
 
-// Kronrod nodes on (0, 1], their weights, and the weights of the embedded 7-point
-// Gauss rule (0 where it has no node). The last entry is the centre.
+// Kronrod nodes on (0, 1], their weights, and the weights of the embedded Gauss rule
+// (0 where it has no node). The last entry is the centre.
+template <std::size_t Count>
 struct KronrodRule {
-    std::array<double, 8> node;
-    std::array<double, 8> weight;
-    std::array<double, 8> gaussWeight;
+    std::array<double, Count> node;
+    std::array<double, Count> weight;
+    std::array<double, Count> gaussWeight;
 };
-inline constexpr KronrodRule kKronrod15{
+// 15 points about 7: for long smooth pieces.
+inline constexpr KronrodRule<8> kKronrod15{
     {0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
      0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
      0.586087235467691130294144691693305, 0.405845151377397166906606412076961,
@@ -59,23 +61,31 @@ inline constexpr KronrodRule kKronrod15{
     {0.0, 0.129484966168869693270611432679082, 0.0, 0.279705391489276667901467771423780, 0.0,
      0.381830050505118944950369775488975, 0.0, 0.417959183673469387755102040816327}};
 
+// 7 points about 3: for many short pieces.
+inline constexpr KronrodRule<4> kKronrod7{
+    {0.960491268708020283423507092629080, 0.774596669241483377035853079956480,
+     0.434243749346802558002071502844628, 0.0},
+    {0.104656226026467265193823857192073, 0.268488089868333440728569280666710,
+     0.401397414775962222905051818618432, 0.450916538658474142345110087045571},
+    {0.0, 0.555555555555555555555555555555556, 0.0, 0.888888888888888888888888888888889}};
+
 // The error is the difference of the two rules, far above the true one of the
 // Kronrod rule; differences that rounding explains count as none.
-template <typename Function>
-Estimate kronrod15(Function&& f, double begin, double end) {
+template <std::size_t Count, typename Function>
+Estimate kronrod(const KronrodRule<Count>& rule, Function&& f, double begin, double end) {
     const double centre = 0.5 * (begin + end);
     const double half = 0.5 * (end - begin);
     const double middle = f(centre);
-    double kronrod = kKronrod15.weight[7] * middle;
-    double gauss = kKronrod15.gaussWeight[7] * middle;
-    double magnitude = kKronrod15.weight[7] * std::abs(middle);
-    for (int i = 0; i < 7; ++i) {
-        const double offset = half * kKronrod15.node[std::size_t(i)];
+    double kronrod = rule.weight.back() * middle;
+    double gauss = rule.gaussWeight.back() * middle;
+    double magnitude = rule.weight.back() * std::abs(middle);
+    for (std::size_t i = 0; i + 1 < Count; ++i) {
+        const double offset = half * rule.node[i];
         const double below = f(centre - offset);
         const double above = f(centre + offset);
-        kronrod += kKronrod15.weight[std::size_t(i)] * (below + above);
-        gauss += kKronrod15.gaussWeight[std::size_t(i)] * (below + above);
-        magnitude += kKronrod15.weight[std::size_t(i)] * (std::abs(below) + std::abs(above));
+        kronrod += rule.weight[i] * (below + above);
+        gauss += rule.gaussWeight[i] * (below + above);
+        magnitude += rule.weight[i] * (std::abs(below) + std::abs(above));
     }
     const double difference = std::abs(kronrod - gauss);
     const double rounding = 50 * std::numeric_limits<double>::epsilon() * magnitude;
@@ -85,13 +95,14 @@ Estimate kronrod15(Function&& f, double begin, double end) {
 // Integral of f over [breaks.front(), breaks.back()], split at every break from
 // the start; breaks rise. The error that is returned is above the tolerance only
 // where 2,000 pieces were not enough.
-template <typename Function>
-Estimate integrate(Function&& f, std::span<const double> breaks, const Tolerance& tolerance) {
+template <typename Function, std::size_t Count = 8>
+Estimate integrate(Function&& f, std::span<const double> breaks, const Tolerance& tolerance,
+                   const KronrodRule<Count>& rule = kKronrod15) {
     constexpr std::size_t kLargestCount = 2000;
     Estimate total;
     std::vector<QuadraturePiece> pieces;
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-        const Estimate estimate = kronrod15(f, breaks[i], breaks[i + 1]);
+        const Estimate estimate = kronrod(rule, f, breaks[i], breaks[i + 1]);
         total += estimate;
         if (estimate.error > 0) {
             pieces.push_back({breaks[i], breaks[i + 1], estimate});
@@ -115,7 +126,7 @@ Estimate integrate(Function&& f, std::span<const double> breaks, const Tolerance
         total.value -= worst.estimate.value;
         total.error -= worst.estimate.error;
         for (const auto& [begin, end] : {std::pair{worst.begin, middle}, {middle, worst.end}}) {
-            const Estimate estimate = kronrod15(f, begin, end);
+            const Estimate estimate = kronrod(rule, f, begin, end);
             total += estimate;
             if (estimate.error > 0) {
                 pieces.push_back({begin, end, estimate});

@@ -4,6 +4,7 @@
 // The windows that are on, in double precision.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct LitWindow {
     double meanPower() const { return (power.x + power.y + power.z) / 3; }
     // From (u, v) in [-1, 1]^2 on the pane.
     glm::dvec3 at(glm::dvec2 uv) const { return centre + uv.x * halfU + uv.y * halfV; }
+    // In order about the pane.
+    std::array<glm::dvec3, 4> corners() const {
+        return {at({-1, -1}), at({1, -1}), at({1, 1}), at({-1, 1})};
+    }
     // A point of the pane as the model has it. A sphere is isotropic in every model.
     PointSource pointSource(glm::dvec3 place, Emitter emitter) const;
     bool isPane(Emitter emitter) const { return emitter == Emitter::pane && !sphere; }

@@ -9,7 +9,7 @@
 namespace nightcity {
 
 Accuracy judgeAccuracy(double tolerance, std::size_t windows) {
-    constexpr std::size_t kManyWindows = 100'000;
+    constexpr std::size_t kManyWindows = 10'000;
     const double hundredth = tolerance / 100;
     return {tolerance / 10, windows > kManyWindows ? hundredth : std::min(1e-6, hundredth)};
 }

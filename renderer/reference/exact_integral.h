@@ -15,7 +15,7 @@
 namespace nightcity {
 
 // How exact a judge of `tolerance` must be: a tenth of it; what is left out brings
-// less than a millionth, in scenes of more than 100,000 windows less than a
+// less than a millionth, in scenes of more than 10,000 windows less than a
 // hundredth of the tolerance.
 Accuracy judgeAccuracy(double tolerance, std::size_t windows);
 

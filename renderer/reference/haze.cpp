@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "reference/hull_region.h"
 #include "reference/view_triangle.h"
 
 namespace nightcity {
@@ -128,23 +129,37 @@ void sortKinks(std::vector<double>& kinks) {
     });
 }
 
-// Length of the part of a way inside a box, as a fraction; lo <= x < hi.
-double partInside(const Bounds& box, glm::dvec3 from, glm::dvec3 way) {
-    double enter = 0, leave = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (way[axis] == 0) {
-            if (!(from[axis] >= box.lo[axis] && from[axis] < box.hi[axis])) {
-                return 0;
+// A straight way between two points.
+class Way {
+public:
+    Way(glm::dvec3 from, glm::dvec3 to) : from_(from), way_(to - from), inverse_(1.0 / way_) {}
+
+    // Length of the part inside a box, as a fraction; lo <= x < hi.
+    double partInside(const Bounds& box) const {
+        double enter = 0, leave = 1;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (way_[axis] == 0) {
+                if (!(from_[axis] >= box.lo[axis] && from_[axis] < box.hi[axis])) {
+                    return 0;
+                }
+                continue;
             }
-            continue;
+            const double a = (box.lo[axis] - from_[axis]) * inverse_[axis];
+            const double b = (box.hi[axis] - from_[axis]) * inverse_[axis];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
         }
-        const double inverse = 1 / way[axis];
-        const double a = (box.lo[axis] - from[axis]) * inverse;
-        const double b = (box.hi[axis] - from[axis]) * inverse;
-        enter = std::max(enter, std::min(a, b));
-        leave = std::min(leave, std::max(a, b));
+        return std::max(0.0, leave - enter);
     }
-    return std::max(0.0, leave - enter);
+
+private:
+    glm::dvec3 from_, way_, inverse_;  // inverse: per m, infinite along a face
+};
+
+bool holds(const HazeBox& box, std::span<const glm::dvec3> points) {
+    return std::all_of(points.begin(), points.end(), [&](glm::dvec3 point) {
+        return box.bounds.touches({point, point});
+    });
 }
 
 }  // namespace
@@ -159,9 +174,34 @@ double SourceDepth::at(glm::dvec3 place, double distance) const {
     if (uniform_) {
         return *uniform_ * distance;
     }
+    const Way way(source_, place);
     double depth = 0;
     for (const HazeBox& box : boxes_) {
-        depth += box.extinction * partInside(box.bounds, source_, place - source_);
+        depth += box.extinction * way.partInside(box.bounds);
+    }
+    return depth * distance;
+}
+
+HazeBetween HazeBetween::uniform(double extinction) {
+    HazeBetween haze({{{}, extinction}});
+    haze.uniform_ = true;
+    return haze;
+}
+
+HazeBetween::HazeBetween(std::vector<HazeBox> boxes) : boxes_(std::move(boxes)) {
+    for (const HazeBox& box : boxes_) {
+        largest_ = std::max(largest_, box.extinction);
+    }
+}
+
+double HazeBetween::depth(glm::dvec3 from, glm::dvec3 to, double distance) const {
+    if (uniform_) {
+        return largest_ * distance;
+    }
+    const Way way(from, to);
+    double depth = 0;
+    for (const HazeBox& box : boxes_) {
+        depth += box.extinction * way.partInside(box.bounds);
     }
     return depth * distance;
 }
@@ -200,13 +240,34 @@ SourceDepth Haze::between(glm::dvec3 source, glm::dvec3 begin, glm::dvec3 end) c
     return {source, std::move(boxes), std::move(kinks)};
 }
 
+HazeBetween Haze::between(std::span<const glm::dvec3> source, glm::dvec3 begin,
+                          glm::dvec3 end) const {
+    std::vector<glm::dvec3> points(source.begin(), source.end());
+    points.push_back(begin);
+    points.push_back(end);
+    const HullRegion region(source, begin, end);
+    std::vector<std::uint32_t> touched;
+    tree_.visitWhere([&](const Bounds& box) { return region.mayTouch(box); },
+                     [&](std::uint32_t index) { touched.push_back(index); });
+    std::sort(touched.begin(), touched.end());
+    std::vector<HazeBox> boxes;
+    for (const std::uint32_t index : touched) {
+        if (holds(boxes_[index], points)) {
+            return HazeBetween::uniform(boxes_[index].extinction);
+        }
+        boxes.push_back(boxes_[index]);
+    }
+    return HazeBetween(std::move(boxes));
+}
+
 double Haze::depth(glm::dvec3 from, glm::dvec3 to) const {
     Bounds around;
     around.add(from);
     around.add(to);
+    const Way way(from, to);
     double depth = 0;
     tree_.visitTouching(around, [&](std::uint32_t index) {
-        depth += boxes_[index].extinction * partInside(boxes_[index].bounds, from, to - from);
+        depth += boxes_[index].extinction * way.partInside(boxes_[index].bounds);
     });
     return depth * glm::length(to - from);
 }

@@ -43,6 +43,24 @@ private:
     std::vector<double> kinks_;
 };
 
+// Between anywhere on one pane and anywhere on one stretch.
+class HazeBetween {
+public:
+    // One extinction all the way.
+    static HazeBetween uniform(double extinction);
+    explicit HazeBetween(std::vector<HazeBox> boxes);
+
+    // `distance` is that between the two, m; 1 gives the mean extinction.
+    double depth(glm::dvec3 from, glm::dvec3 to, double distance) const;
+    bool isUniform() const { return uniform_; }
+    double largestExtinction() const { return largest_; }
+
+private:
+    bool uniform_ = false;
+    double largest_ = 0;  // 1/m
+    std::vector<HazeBox> boxes_;
+};
+
 class Haze {
 public:
     explicit Haze(std::span<const MediaBox> media);
@@ -51,6 +69,9 @@ public:
     // depth is that times the distance; otherwise it has kinks, where the way
     // crosses an edge of a box.
     SourceDepth between(glm::dvec3 source, glm::dvec3 begin, glm::dvec3 end) const;
+    // From a source as HullRegion has it.
+    HazeBetween between(std::span<const glm::dvec3> source, glm::dvec3 begin,
+                        glm::dvec3 end) const;
     // Between two points.
     double depth(glm::dvec3 from, glm::dvec3 to) const;
 

@@ -12,7 +12,8 @@ LightScene::LightScene(const FlatScene& scene, int frame, const RenderSettings& 
       occluders(scene),
       haze(settings.media ? scene.mediaBoxes : std::span<const MediaBox>()),
       media(settings.media),
-      windows(litWindows(scene, frame)) {
+      windows(litWindows(scene, frame)),
+      groups(windows, settings.model.emitter) {
     if (model.lights == Lights::all) {
         return;
     }

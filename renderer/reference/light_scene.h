@@ -11,6 +11,7 @@
 #include "reference/emitters.h"
 #include "reference/haze.h"
 #include "reference/occluders.h"
+#include "reference/window_groups.h"
 #include "settings.h"
 
 namespace nightcity {
@@ -26,6 +27,7 @@ struct LightScene {
     Haze haze;                               // empty with media off
     bool media;
     std::vector<LitWindow> windows;
+    WindowGroups groups;                     // of `windows`
     std::vector<std::vector<std::uint32_t>> listed;  // of each media box, into windows; else empty
 };
 

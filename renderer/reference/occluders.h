@@ -25,10 +25,12 @@ public:
     std::span<const glm::dvec3> face(std::uint32_t index) const { return faces_.face(index); }
     std::size_t size() const { return faces_.size(); }
 
-    // Indices, rising, of every face that may hide part of the stretch from a point
-    // within `radius` (m) of `point`; some of them may hide nothing.
-    std::vector<std::uint32_t> between(glm::dvec3 point, double radius, glm::dvec3 begin,
+    // Indices, rising, of every face that may hide part of the stretch from a source
+    // as HullRegion has it; some of them may hide nothing.
+    std::vector<std::uint32_t> between(std::span<const glm::dvec3> source, glm::dvec3 begin,
                                        glm::dvec3 end) const;
+
+    std::optional<double> groundHeight() const { return groundHeight_; }  // m
 
     // Whether the ground lies between two points.
     bool groundBetween(glm::dvec3 a, glm::dvec3 b) const {

@@ -55,6 +55,16 @@ void keepPositive(double atZero, double atOne, double& first, double& second) {
     }
 }
 
+// The fractions that the part [first, second] of a chord from a to b covers.
+Interval fractions(glm::dvec2 a, glm::dvec2 b, double first, double second) {
+    if (!(first < second)) {
+        return {};
+    }
+    const double p = stretchFraction(a + (b - a) * first);
+    const double q = stretchFraction(a + (b - a) * second);
+    return {std::clamp(std::min(p, q), 0.0, 1.0), std::clamp(std::max(p, q), 0.0, 1.0)};
+}
+
 }  // namespace
 
 Interval shadow(const ViewTriangle& view, std::span<const glm::dvec3> face) {
@@ -68,12 +78,20 @@ Interval shadow(const ViewTriangle& view, std::span<const glm::dvec3> face) {
     keepPositive(a.y, b.y, first, second);
     keepPositive(a.x + a.y - kNearApex, b.x + b.y - kNearApex, first, second);
     keepPositive(1 - a.x - a.y, 1 - b.x - b.y, first, second);
-    if (!(first < second)) {
+    return fractions(a, b, first, second);
+}
+
+Interval passage(const ViewTriangle& view, std::span<const glm::dvec3> face) {
+    const auto ends = chord(view, face);
+    if (!ends) {
         return {};
     }
-    const double p = stretchFraction(a + (b - a) * first);
-    const double q = stretchFraction(a + (b - a) * second);
-    return {std::clamp(std::min(p, q), 0.0, 1.0), std::clamp(std::max(p, q), 0.0, 1.0)};
+    const auto [a, b] = *ends;
+    double first = 0, second = 1;
+    keepPositive(-a.x, -b.x, first, second);
+    keepPositive(-a.y, -b.y, first, second);
+    keepPositive(-a.x - a.y - kNearApex, -b.x - b.y - kNearApex, first, second);
+    return fractions(a, b, first, second);
 }
 
 bool blocksLine(const ViewTriangle& view, std::span<const glm::dvec3> face) {

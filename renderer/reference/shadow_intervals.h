@@ -27,6 +27,9 @@ struct Interval {
 // does what lies within a billionth of the distance from the apex.
 Interval shadow(const ViewTriangle& view, std::span<const glm::dvec3> face);
 
+// The fractions that see the face, of a plane beyond the apex, through the apex.
+Interval passage(const ViewTriangle& view, std::span<const glm::dvec3> face);
+
 // For an apex on the line of the stretch: whether the face lies between the apex
 // and the stretch.
 bool blocksLine(const ViewTriangle& view, std::span<const glm::dvec3> face);

@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "reference/contribution_bound.h"
-#include "reference/rectangle_quadrature.h"
+#include "reference/group_sights.h"
+#include "reference/pane_airlight.h"
 #include "reference/sight.h"
 
 namespace nightcity {
 
 namespace {
-
-// Of a point source inside a pane's integral, as a share of the pane's tolerance.
-constexpr double kInnerShare = 0.1;
 
 RayPart hull(std::span<const HazeStretch> stretches) {
     return {stretches.front().begin, stretches.back().end};
@@ -36,19 +35,6 @@ void joinNeighbours(std::vector<HazeStretch>& stretches) {
         }
     }
     stretches = std::move(joined);
-}
-
-// Where on the pane, in [-1, 1]^2, the ray comes nearest to its plane; what lies
-// outside the square is clamped to it.
-glm::dvec2 nearestOnPane(const Ray& ray, const RayPart& part, const LitWindow& window) {
-    const double height = glm::dot(window.normal, ray.origin - window.centre);
-    const double slope = glm::dot(window.normal, ray.direction);
-    const double crossing = slope != 0 ? -height / slope
-                                       : glm::dot(window.centre - ray.origin, ray.direction);
-    const glm::dvec3 from = ray.at(std::clamp(crossing, part.begin, part.end)) - window.centre;
-    const glm::dvec2 uv(glm::dot(from, window.halfU) / glm::dot(window.halfU, window.halfU),
-                        glm::dot(from, window.halfV) / glm::dot(window.halfV, window.halfV));
-    return glm::clamp(uv, glm::dvec2(-1), glm::dvec2(1));
 }
 
 }  // namespace
@@ -103,78 +89,85 @@ WindowSum SingleScattering::along(const Ray& ray, std::span<const Segment> segme
             bounds.push_back({i, bound * window.meanPower()});
         }
     }
+    std::optional<GroupSights> sights;
+    if (lights_.model.visibility == Visibility::full && !stretches.empty()) {
+        sights.emplace(lights_, ray, hull(stretches));
+    }
     return sumWindows(lights_.windows, std::move(bounds), accuracy_,
                       [&](std::uint32_t window, const Tolerance& tolerance) {
-                          return fromWindow(ray, lit[window], lights_.windows[window], tolerance);
+                          return fromWindow(ray, lit[window], window, sights ? &*sights : nullptr,
+                                            tolerance);
                       });
 }
 
 Estimate SingleScattering::fromWindow(const Ray& ray, std::span<const HazeStretch> stretches,
-                                      const LitWindow& window, const Tolerance& tolerance) const {
-    if (window.isPane(lights_.model.emitter)) {
-        return fromPane(ray, stretches, window, tolerance);
-    }
-    const PointSource source = window.pointSource(window.centre, lights_.model.emitter);
-    if (lights_.model.visibility == Visibility::none) {
-        return fromPoint(ray, stretches, source, nullptr, tolerance);
-    }
-    const RayPart whole = hull(stretches);
-    const auto [begin, end] = litPart(ray, source, whole.begin, whole.end);
-    if (!(begin < end)) {
+                                      std::uint32_t index, GroupSights* sights,
+                                      const Tolerance& tolerance) const {
+    const LitWindow& window = lights_.windows[index];
+    const Emitter emitter = lights_.model.emitter;
+    const PointSource middle = window.pointSource(window.centre, emitter);
+    RayPart part = hull(stretches);
+    std::tie(part.begin, part.end) = litPart(ray, middle, part.begin, part.end);
+    if (part.isEmpty()) {
         return {};
     }
-    const Sight sight(lights_.occluders, window.centre, 0, ray, {begin, end});
-    return fromPoint(ray, stretches, source, &sight, tolerance);
-}
-
-// The mean of cosine sources over the pane: P / (pi A) times the solid angle, with
-// visibility and attenuation inside the integral.
-Estimate SingleScattering::fromPane(const Ray& ray, std::span<const HazeStretch> stretches,
-                                    const LitWindow& window, const Tolerance& tolerance) const {
-    const PointSource middle = window.pointSource(window.centre, lights_.model.emitter);
-    const RayPart whole = hull(stretches);
-    const auto [begin, end] = litPart(ray, middle, whole.begin, whole.end);
-    if (!(begin < end)) {
-        return {};
-    }
-    std::optional<Sight> sight;
-    if (lights_.model.visibility == Visibility::full) {
-        sight.emplace(lights_.occluders, window.centre, window.reach, ray, RayPart{begin, end});
-        if (!sight->trim({window.at({-1, -1}), window.at({1, -1}), window.at({1, 1}),
-                          window.at({-1, 1})})) {
+    std::optional<Hiders> hiders;
+    if (sights) {
+        const GroupSight* sight = sights->ofWindow(index);
+        if (sight == nullptr) {
             return {};
         }
+        hiders = sight->hidersOf(window, emitter);
     }
-    const Tolerance inner{kInnerShare * tolerance.absolute, kInnerShare * tolerance.relative};
-    const auto mean = [&](glm::dvec2 uv) {
-        const PointSource source = window.pointSource(window.at(uv), lights_.model.emitter);
-        return 0.25 * fromPoint(ray, stretches, source, sight ? &*sight : nullptr, inner).value;
-    };
-    // Where edges of shadows meet ends of the ray or other edges.
-    const auto hasKinks = [&] { return sight && sight->hasShadows(); };
-    const glm::dvec2 nearest = nearestOnPane(ray, {begin, end}, window);
-    Estimate sum = integrateRectangle(mean, nearest, tolerance, hasKinks);
-    sum.error += inner.of(sum.value);
-    return sum;
+    const Hiders* between = hiders ? &*hiders : nullptr;
+    return window.isPane(emitter) ? fromPane(ray, stretches, window, between, part, tolerance)
+                                  : fromPoint(ray, stretches, middle, between, part, tolerance);
+}
+
+// A Lambertian pane: P / (pi A) times the solid angle, with visibility and attenuation
+// inside the integral over the pane.
+Estimate SingleScattering::fromPane(const Ray& ray, std::span<const HazeStretch> stretches,
+                                    const LitWindow& window, const Hiders* hiders,
+                                    const RayPart& part, const Tolerance& tolerance) const {
+    const PaneSight sight(window, hiders ? *hiders : Hiders(),
+                          hiders ? lights_.occluders.groundHeight() : std::nullopt, ray, part);
+    const double pieces = double(std::max<std::size_t>(1, sight.open().size() * stretches.size()));
+    const Tolerance share{tolerance.absolute / pieces, tolerance.relative};
+    Estimate total;
+    for (const RayPart& open : sight.open()) {
+        for (const HazeStretch& stretch : stretches) {
+            const RayPart piece{std::max(open.begin, stretch.begin), std::min(open.end, stretch.end)};
+            if (!piece.isEmpty()) {
+                const HazeBetween haze =
+                    hiders ? lights_.haze.between(window.corners(), ray.at(piece.begin),
+                                                  ray.at(piece.end))
+                           : HazeBetween::uniform(stretch.extinction);
+                total += paneAirlight(ray, stretch, piece, window, sight, haze, share);
+            }
+        }
+    }
+    return total;
 }
 
 Estimate SingleScattering::fromPoint(const Ray& ray, std::span<const HazeStretch> stretches,
-                                     const PointSource& source, const Sight* sight,
-                                     const Tolerance& tolerance) const {
+                                     const PointSource& source, const Hiders* hiders,
+                                     const RayPart& part, const Tolerance& tolerance) const {
+    if (hiders && lights_.occluders.groundBetween(source.place, ray.at(0.5 * (part.begin + part.end)))) {
+        return {};
+    }
     const std::vector<RayPart> seen =
-        sight ? sight->seenFrom(source.place) : std::vector<RayPart>{hull(stretches)};
+        hiders ? seenFrom(source.place, *hiders, ray, part) : std::vector<RayPart>{part};
     const double pieces = double(std::max<std::size_t>(1, seen.size() * stretches.size()));
     const Tolerance share{tolerance.absolute / pieces, tolerance.relative};
     Estimate total;
-    for (const RayPart& part : seen) {
+    for (const RayPart& open : seen) {
         for (const HazeStretch& stretch : stretches) {
-            const double begin = std::max(part.begin, stretch.begin);
-            const double end = std::min(part.end, stretch.end);
-            if (begin < end) {
+            const RayPart piece{std::max(open.begin, stretch.begin), std::min(open.end, stretch.end)};
+            if (!piece.isEmpty()) {
                 const SourceDepth depth =
-                    sight ? lights_.haze.between(source.place, ray.at(begin), ray.at(end))
-                          : SourceDepth::uniform(stretch.extinction);
-                total += airlight(ray, stretch, begin, end, source, depth, share);
+                    hiders ? lights_.haze.between(source.place, ray.at(piece.begin), ray.at(piece.end))
+                           : SourceDepth::uniform(stretch.extinction);
+                total += airlight(ray, stretch, piece.begin, piece.end, source, depth, share);
             }
         }
     }

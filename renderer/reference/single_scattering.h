@@ -15,7 +15,8 @@
 
 namespace nightcity {
 
-class Sight;
+class GroupSights;
+class Hiders;
 
 class SingleScattering {
 public:
@@ -31,13 +32,15 @@ private:
     std::vector<std::span<const HazeStretch>> litStretches(
         std::span<const Segment> segments, std::span<const HazeStretch> stretches,
         std::vector<std::vector<HazeStretch>>& storage) const;
-    // Radiance per watt.
+    // Radiance per watt of one of the lit windows; `sights`: null without visibility.
     Estimate fromWindow(const Ray& ray, std::span<const HazeStretch> stretches,
-                        const LitWindow& window, const Tolerance& tolerance) const;
+                        std::uint32_t index, GroupSights* sights,
+                        const Tolerance& tolerance) const;
     Estimate fromPane(const Ray& ray, std::span<const HazeStretch> stretches,
-                      const LitWindow& window, const Tolerance& tolerance) const;
+                      const LitWindow& window, const Hiders* hiders, const RayPart& part,
+                      const Tolerance& tolerance) const;
     Estimate fromPoint(const Ray& ray, std::span<const HazeStretch> stretches,
-                       const PointSource& source, const Sight* sight,
+                       const PointSource& source, const Hiders* hiders, const RayPart& part,
                        const Tolerance& tolerance) const;
 
     const LightScene& lights_;

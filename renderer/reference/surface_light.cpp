@@ -100,14 +100,27 @@ Estimate SurfaceLight::fromWindow(const SurfacePoint& point, const LitWindow& wi
     if (window.isPane(lights_.model.emitter)) {
         return fromPane(point, window, tolerance);
     }
-    return {fromPoint(point, window.pointSource(window.centre, lights_.model.emitter)), 0};
+    return {fromPoint(point, window), 0};
 }
 
 double SurfaceLight::ownExtinction(const SurfacePoint& point) const {
     return lights_.media && point.box ? double(lights_.mediaBoxes[*point.box].extinction) : 0;
 }
 
-double SurfaceLight::fromPoint(const SurfacePoint& point, const PointSource& source) const {
+Hiders SurfaceLight::hidersOf(const SurfacePoint& point, const LitWindow& window) const {
+    const Emitter emitter = lights_.model.emitter;
+    const auto corners = window.corners();
+    const auto source = window.isPane(emitter) ? std::span<const glm::dvec3>(corners)
+                                               : std::span<const glm::dvec3>(&window.centre, 1);
+    Hiders hiders;
+    for (const std::uint32_t index : lights_.occluders.between(source, point.place, point.place)) {
+        hiders.addHiding(lights_.occluders.face(index), window, emitter);
+    }
+    return hiders;
+}
+
+double SurfaceLight::fromPoint(const SurfacePoint& point, const LitWindow& window) const {
+    const PointSource source = window.pointSource(window.centre, lights_.model.emitter);
     const glm::dvec3 way = source.place - point.place;
     const double distance = glm::length(way);
     const double cosine = received(point, way) / distance;
@@ -124,9 +137,9 @@ double SurfaceLight::fromPoint(const SurfacePoint& point, const PointSource& sou
         return 0;
     }
     const ViewTriangle view(point.place, source.place, source.place);
-    for (const std::uint32_t index :
-         lights_.occluders.between(point.place, 0, source.place, source.place)) {
-        if (blocksLine(view, lights_.occluders.face(index))) {
+    const Hiders hiders = hidersOf(point, window);
+    for (std::size_t i = 0; i < hiders.size(); ++i) {
+        if (blocksLine(view, hiders[i])) {
             return 0;
         }
     }
@@ -136,7 +149,7 @@ double SurfaceLight::fromPoint(const SurfacePoint& point, const PointSource& sou
 // Along one line of the pane, v fixed: the mean over u. What the surface point sees
 // of the line is found as what a window sees of a ray.
 Estimate SurfaceLight::fromLine(const SurfacePoint& point, const LitWindow& window,
-                                const std::vector<std::uint32_t>& faces, double v,
+                                const Hiders& hiders, double v,
                                 const Tolerance& tolerance) const {
     const glm::dvec3 begin = window.at({-1, v}), end = window.at({1, v});
     const Interval bright = facing(point, begin, end);
@@ -147,8 +160,8 @@ Estimate SurfaceLight::fromLine(const SurfacePoint& point, const LitWindow& wind
     }
     const ViewTriangle view(point.place, begin, end);
     std::vector<Interval> shadows;
-    for (const std::uint32_t index : faces) {
-        const Interval hidden = shadow(view, lights_.occluders.face(index));
+    for (std::size_t i = 0; i < hiders.size(); ++i) {
+        const Interval hidden = shadow(view, hiders[i]);
         if (!hidden.isEmpty()) {
             shadows.push_back(hidden);
         }
@@ -183,14 +196,12 @@ Estimate SurfaceLight::fromPane(const SurfacePoint& point, const LitWindow& wind
     if (glm::dot(window.normal, point.place - window.centre) <= 0) {
         return {};
     }
-    std::vector<std::uint32_t> faces;
-    if (lights_.model.visibility == Visibility::full) {
-        faces = lights_.occluders.between(window.centre, window.reach, point.place, point.place);
-    }
+    const Hiders hiders =
+        lights_.model.visibility == Visibility::full ? hidersOf(point, window) : Hiders();
     const Tolerance inner{kInnerShare * tolerance.absolute, kInnerShare * tolerance.relative};
     const double across[] = {-1.0, 0.0, 1.0};
     Estimate sum = integrate(
-        [&](double v) { return 0.5 * fromLine(point, window, faces, v, inner).value; }, across,
+        [&](double v) { return 0.5 * fromLine(point, window, hiders, v, inner).value; }, across,
         tolerance);
     sum.error += inner.of(sum.value);
     return sum;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "reference/hiders.h"
 #include "reference/light_scene.h"
 #include "reference/window_sum.h"
 
@@ -35,11 +36,13 @@ public:
                         const Tolerance& tolerance) const;
 
 private:
-    double fromPoint(const SurfacePoint& point, const PointSource& source) const;
+    // What may stand between the two.
+    Hiders hidersOf(const SurfacePoint& point, const LitWindow& window) const;
+    double fromPoint(const SurfacePoint& point, const LitWindow& window) const;
     Estimate fromPane(const SurfacePoint& point, const LitWindow& window,
                       const Tolerance& tolerance) const;
     Estimate fromLine(const SurfacePoint& point, const LitWindow& window,
-                      const std::vector<std::uint32_t>& faces, double v,
+                      const Hiders& hiders, double v,
                       const Tolerance& tolerance) const;
     double ownExtinction(const SurfacePoint& point) const;
 

@@ -53,7 +53,8 @@ WindowSum sumWindows(const std::vector<LitWindow>& windows, std::vector<WindowBo
         }
         const LitWindow& window = windows[bounds[i].window];
         const double power = window.meanPower();
-        const double share = bounds[i].bound / rest[0];
+        // By its bound, and an equal one: far windows need not be finer than they matter.
+        const double share = 0.5 * (bounds[i].bound / rest[0] + 1 / double(bounds.size()));
         const Tolerance tolerance{0.5 * accuracy.relative * mean * share / power,
                                   0.5 * accuracy.relative};
         const Estimate estimate = perWatt(bounds[i].window, tolerance);

@@ -4,6 +4,7 @@
 // The tree of occluders on the device against the judge: no face that hides anything is
 // left out, and few others are named.
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <random>
 #include <set>
@@ -96,6 +97,16 @@ std::set<std::uint32_t> facesOf(const OccludersAnswer& answer) {
     return {answer.face, answer.face + std::min(answer.count, kMostFaces)};
 }
 
+// In the order of HullRegion.
+std::array<glm::dvec3, 8> cornersOf(glm::dvec3 centre, glm::dvec3 half) {
+    constexpr double kSide[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = centre + half * glm::dvec3(kSide[i % 4][0], kSide[i % 4][1], i < 4 ? -1 : 1);
+    }
+    return corners;
+}
+
 // Whether a face stands on the way from one point to another.
 bool stands(const Occluders& judge, std::uint32_t face, glm::dvec3 from, glm::dvec3 to) {
     return blocksLine(ViewTriangle(from, to, to), judge.face(face));
@@ -120,7 +131,7 @@ void expectStretchesAgree(vec3 place) {
         const glm::dvec3 centre(q.origin), begin = centre + glm::dvec3(q.begin),
                                            end = centre + glm::dvec3(q.end);
         named += faces.size();
-        judged += judge.between(centre, double(q.nearHalf.x), begin, end).size();
+        judged += judge.between(cornersOf(centre, glm::dvec3(q.nearHalf)), begin, end).size();
         for (int point = 0; point < 8; ++point) {
             const glm::dvec3 apex = centre + glm::dvec3(random.within(q.nearHalf));
             for (std::uint32_t face = 0; face < judge.size(); ++face) {
