@@ -20,8 +20,8 @@ namespace nightcity {
 
 class PaneSight {
 public:
-    // From the front of the pane. `groundHeight`: only what lies on the ray's side
-    // of it is seen.
+    // From the front of the pane; the window must outlive it. `groundHeight`: only what
+    // lies on the ray's side of it is seen.
     PaneSight(const LitWindow& window, Hiders hiders, std::optional<double> groundHeight,
               const Ray& ray, const RayPart& part);
 

@@ -96,6 +96,7 @@ void compare(const std::vector<Face>& faces, const PaneSight& sight, const Ray& 
 TEST(JudgePaneSight, PolygonsAreWhatPointsSee) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1);
+    const LitWindow window = pane();
     Agreement result;
     for (int scene = 0; scene < 150; ++scene) {
         std::vector<Face> faces;
@@ -103,12 +104,12 @@ TEST(JudgePaneSight, PolygonsAreWhatPointsSee) {
         for (int i = 0; i < 1 + scene % 12; ++i) {  // some cross the pane, some the ray
             faces.push_back(rectangle(
                 random, {2 * unit(random), 3 + 3.5 * unit(random), 2 * unit(random)}, 1.5));
-            hiders.addHiding(faces.back(), pane(), Emitter::pane);
+            hiders.addHiding(faces.back(), window, Emitter::pane);
         }
         const Ray ray = through({-6, 5 + 4 * unit(random), 3 * unit(random)},
                                 {6, 5 + 4 * unit(random), 3 * unit(random)});
         const RayPart part{0, 12};
-        const PaneSight sight(pane(), hiders, std::nullopt, ray, part);
+        const PaneSight sight(window, hiders, std::nullopt, ray, part);
         compare(faces, sight, ray, part, random, result);
     }
     EXPECT_EQ(result.wrong, 0);
