@@ -15,6 +15,7 @@
 
 #include "far_field_device.h"
 #include "scene/scene_file.h"
+#include "scene_builder.h"
 
 namespace nightcity {
 namespace {
@@ -86,9 +87,7 @@ int run(int argc, char** argv) {
     FarFieldOnDevice device(false);
     FarFieldSettings settings;
     settings.memoryBytes = 4'000'000'000;
-    settings.spacing = 40;
-    settings.nearRadius = 160;
-    device.sync(scene, settings);  // compiles the shaders
+    device.sync(paperCity(1).load(), settings);  // compiles the shaders
     std::printf("%8s %8s %10s %9s %9s %9s | %8s %8s %8s %8s %8s\n", "spacing", "radius", "nodes",
                 "bake s", "toggle s", "MB", "bias %", "p50 %", "p95 %", "p99 %", "max %");
     for (int i = 4; i < argc; ++i) {
