@@ -35,12 +35,14 @@ NIGHTCITY_CHOICES(Emitter, {"isotropic", Emitter::isotropic},
 NIGHTCITY_CHOICES(Scattering, {"single", Scattering::single},
                   {"multiple", Scattering::multiple})
 NIGHTCITY_CHOICES(Surfaces, {"dim", Surfaces::dim}, {"lit", Surfaces::lit})
-NIGHTCITY_CHOICES(Method, {"march", Method::march}, {"gauss", Method::gauss}, {"path", Method::path},
+NIGHTCITY_CHOICES(Method, {"march", Method::march}, {"gauss", Method::gauss},
+                  {"field", Method::field}, {"path", Method::path},
                   {"reference", Method::reference})
 NIGHTCITY_CHOICES(MarchOrder, {"steps", MarchOrder::steps}, {"lights", MarchOrder::lights})
 NIGHTCITY_CHOICES(LightStorage, {"uniform", LightStorage::uniform},
                   {"storage", LightStorage::storage})
 NIGHTCITY_CHOICES(Filter, {"box", Filter::box}, {"gauss", Filter::gauss})
+NIGHTCITY_CHOICES(GlowRays, {"sparse", GlowRays::sparse}, {"all", GlowRays::all})
 NIGHTCITY_CHOICES(Primary, {"raster", Primary::raster}, {"rays", Primary::rays})
 NIGHTCITY_CHOICES(ProgressStyle, {"auto", ProgressStyle::automatic},
                   {"tty", ProgressStyle::terminal}, {"lines", ProgressStyle::lines},

@@ -91,6 +91,9 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
                                                         : ""));
         entries.emplace_back("g", number(settings.anisotropy));
     }
+    if (settings.method == Method::field) {
+        entries.emplace_back("glowRays", choiceName(settings.glowRays));
+    }
     if (settings.method == Method::march) {
         entries.emplace_back("marchOrder", choiceName(settings.marchOrder));
     }

@@ -117,6 +117,22 @@ void checkGauss(const Options& options, const Given& given) {
             "down to 1e-7");
 }
 
+// The field is exact single scattering; what it bakes must have all windows and all shadows.
+void checkField(const Options& options, const Given& given) {
+    for (const char* name : {"--subdivisions", "--march-order", "--light-storage", "--light-cap"}) {
+        require(!given(name), std::string(name) + " is not for --method field; it takes --tolerance");
+    }
+    const RenderSettings& settings = options.settings;
+    const double tolerance = settings.tolerance.value_or(kFieldTolerance);
+    require(tolerance >= 1e-3 && tolerance <= 0.1,
+            "--tolerance must lie from 0.001 to 0.1 for --method field; --method reference goes on");
+    const Model& model = settings.model;
+    require(model.lights == Lights::all && model.visibility == Visibility::full &&
+                model.emitter == Emitter::pane && model.surfaces == Surfaces::dim,
+            "--method field knows --model single only (all lights, full visibility, panes, dim "
+            "surfaces); for any other model take --method path or reference");
+}
+
 void checkMethod(const Options& options, const Given& given) {
     const RenderSettings& settings = options.settings;
     checkPaths(options, given);
@@ -128,6 +144,10 @@ void checkMethod(const Options& options, const Given& given) {
     }
     if (settings.method == Method::gauss) {
         checkGauss(options, given);
+        return;
+    }
+    if (settings.method == Method::field) {
+        checkField(options, given);
         return;
     }
     const bool exact = settings.method == Method::reference && !given("--subdivisions");

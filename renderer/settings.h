@@ -27,6 +27,7 @@ enum class Surfaces { dim, lit };
 enum class Method {
     march,      // N equal steps a segment, midpoints, on the GPU
     gauss,      // quadrature over the visible part of each window's light, on the GPU
+    field,      // far fluence baked on a grid, near windows along each ray, on the GPU
     path,       // unbiased Monte Carlo, on the GPU
     reference,  // in double precision, on the CPU: the same march, or the exact integral
 };
@@ -37,6 +38,12 @@ enum class Filter { box, gauss };
 enum class Primary {
     raster,  // where device, scene and frame allow, else as rays
     rays,    // ray queries
+};
+
+// Method::field: along which pixels' rays glow is integrated.
+enum class GlowRays {
+    sparse,  // as few as the tolerance allows; the other pixels are interpolated
+    all,
 };
 
 struct Model {
@@ -57,6 +64,8 @@ struct Orders {
     bool operator==(const Orders&) const = default;
 };
 
+inline constexpr double kFieldTolerance = 0.01;  // of Method::field, where none is given
+
 struct RenderSettings {
     Model model;
     Method method = Method::march;
@@ -64,13 +73,14 @@ struct RenderSettings {
     LightStorage lightStorage = LightStorage::uniform;
     std::uint32_t subdivisions = 25;         // steps a segment, at least 1
     std::optional<std::uint32_t> lightCap;   // at most this many lit windows a box, the nearest ids first
-    // Method::gauss: relative error of a pixel's glow. Method::reference: exact to a tenth of this;
-    // unset: the march.
+    // Relative error of a pixel's glow. Method::field: in 95 of 100 pixels. Method::reference: exact
+    // to a tenth of this; unset: the march.
     std::optional<double> tolerance;
     // Method::path:
     std::uint32_t samples = 64;              // paths a pixel sample, at least 1
     Orders orders;                           // within those of model.scattering
     float anisotropy = 0;                    // g of Henyey and Greenstein, within (-1, 1)
+    GlowRays glowRays = GlowRays::sparse;
     bool media = true;                       // off: the surface frame
     bool writeOnly = false;                  // with media off: write the images, look at nothing
     Primary primary = Primary::raster;

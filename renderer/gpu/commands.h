@@ -32,8 +32,8 @@ private:
     Buffer staging_;
 };
 
-// Everything that shaders and builds wrote before is seen by the shaders, builds and copies
-// that follow.
+// Everything that shaders and builds wrote before is seen by the shaders, builds, copies and
+// indirect dispatches that follow.
 void computeBarrier(VkCommandBuffer commands);
 
 // What shaders and copies wrote is seen by the host once the fence has signalled.

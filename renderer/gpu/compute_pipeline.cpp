@@ -141,8 +141,7 @@ void ComputePipeline::bindBuffers(const Binding& binding, const Buffer& buffer,
     vkUpdateDescriptorSets(setLayout_.device(), 1, &write, 0, nullptr);
 }
 
-void ComputePipeline::dispatch(VkCommandBuffer commands, const void* pushConstants,
-                               uint32_t groups) const {
+void ComputePipeline::bind(VkCommandBuffer commands, const void* pushConstants) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
     if (set_ != VK_NULL_HANDLE) {
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1,
@@ -152,7 +151,18 @@ void ComputePipeline::dispatch(VkCommandBuffer commands, const void* pushConstan
         vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            pushConstantBytes_, pushConstants);
     }
+}
+
+void ComputePipeline::dispatch(VkCommandBuffer commands, const void* pushConstants,
+                               uint32_t groups) const {
+    bind(commands, pushConstants);
     vkCmdDispatch(commands, groups, 1, 1);
+}
+
+void ComputePipeline::dispatchIndirect(VkCommandBuffer commands, const void* pushConstants,
+                                       const Buffer& groups, uint64_t offset) const {
+    bind(commands, pushConstants);
+    vkCmdDispatchIndirect(commands, groups.get(), offset);
 }
 
 }  // namespace nightcity::gpu

@@ -41,11 +41,15 @@ public:
     void bindBuffers(const Binding& binding, const Buffer& buffer, uint64_t bytesEach);
 
     void dispatch(VkCommandBuffer commands, const void* pushConstants, uint32_t groups) const;
+    // As many groups as the VkDispatchIndirectCommand `offset` bytes into `groups` says.
+    void dispatchIndirect(VkCommandBuffer commands, const void* pushConstants,
+                          const Buffer& groups, uint64_t offset) const;
 
 private:
     void createLayout(Device& device, const ComputePipelineInfo& info);
     void createSet(Device& device, const ComputePipelineInfo& info);
     void createPipeline(Device& device, const ComputePipelineInfo& info);
+    void bind(VkCommandBuffer commands, const void* pushConstants) const;
 
     Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> setLayout_;
     Handle<VkPipelineLayout, vkDestroyPipelineLayout> layout_;

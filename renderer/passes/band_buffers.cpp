@@ -1,5 +1,5 @@
-// SPDX-FileCopyrightText: The Nightcity authors
-// SPDX-License-Identifier: Apache-2.0
+// SPD, first, skipped, count, images-FileCopyrightText: The Nightcity authors
+// SPD, first, skipped, count, images-License-Identifier: Apache-2.0
 #include "passes/band_buffers.h"
 
 #include <cstring>
@@ -11,10 +11,10 @@ namespace nightcity {
 namespace {
 
 template <typename T>
-void copyImage(std::vector<T>& target, std::uint64_t first, std::uint32_t count,
-               const void* images, std::uint64_t offset) {
-    std::memcpy(target.data() + first, static_cast<const char*>(images) + offset,
-                count * sizeof(T));
+void copyImage(std::vector<T>& target, std::uint64_t first, std::uint32_t skipped,
+               std::uint32_t count, const void* images, std::uint64_t offset) {
+    const char* source = static_cast<const char*>(images) + offset + skipped * sizeof(T);
+    std::memcpy(target.data() + first, source, count * sizeof(T));
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ BandBuffers::BandBuffers(gpu::Device& device, std::uint32_t rays, Method method)
     if (method == Method::path) {
         pathSums_ = {device, "path sums", count * sizeof(PathSums), MemoryKind::device};
         glowSquares_ = {device, "squares of glow", count * sizeof(vec3), MemoryKind::device};
-    } else {
+    } else if (method != Method::field) {
         segments_ = {device, "segments", count * kSegmentSlots * sizeof(Segment),
                      MemoryKind::device};
     }
@@ -70,7 +70,7 @@ void BandBuffers::prepare(gpu::Commands& commands, FrameTable table,
     if (method_ == Method::path) {
         table.pathSums = addressWords(pathSums_.address());
         table.glowSquares = addressWords(glowSquares_.address());
-    } else {
+    } else if (method_ != Method::field) {
         table.segments = addressWords(segments_.address());
     }
     table.counters = addressWords(counters_.buffer().address());
@@ -90,12 +90,12 @@ void BandBuffers::prepare(gpu::Commands& commands, FrameTable table,
     commands.upload(table_, &table, sizeof(FrameTable));
 }
 
-void BandBuffers::copyTo(Frame& frame, std::uint64_t first, std::uint32_t count,
-                         std::uint32_t aovs) const {
+void BandBuffers::copyTo(Frame& frame, std::uint64_t first, std::uint32_t skipped,
+                         std::uint32_t count, std::uint32_t aovs) const {
     const ImageOffsets at = imageOffsets(rays_, method_);
     const auto copy = [&](std::uint32_t aov, auto& target, std::uint64_t offset) {
         if ((aovs & aov) != 0) {
-            copyImage(target, first, count, images_.data(), offset);
+            copyImage(target, first, skipped, count, images_.data(), offset);
         }
     };
     copy(kAovBeauty, frame.beauty, at.beauty);

@@ -32,8 +32,10 @@ public:
     // the pixel list, or empty; `samples`: offsets from the pixel centre.
     void prepare(gpu::Commands& commands, FrameTable table, const std::vector<uvec2>& pixels,
                  const std::vector<vec2>& samples);
-    // Copies `count` pixels of the images in `aovs` (aovs.h) to the frame, from pixel `first`.
-    void copyTo(Frame& frame, std::uint64_t first, std::uint32_t count, std::uint32_t aovs) const;
+    // Copies `count` pixels of the images in `aovs` (aovs.h), from pixel `skipped` of the band on,
+    // to the frame, from pixel `first`.
+    void copyTo(Frame& frame, std::uint64_t first, std::uint32_t skipped, std::uint32_t count,
+                std::uint32_t aovs) const;
 
 private:
     // Byte offset of each image in images_.

@@ -11,9 +11,13 @@
 namespace nightcity {
 namespace {
 
-constexpr std::uint32_t kSpansPerBatch = 5;  // raster, surface, lit, traverse, march or gauss
+// raster, surface, lit, traverse, march or gauss; or raster, surface, media ids, three rounds of
+// plan and glow, composite
+constexpr std::uint32_t kSpansPerBatch = 10;
 // Pixels of a band: about 100 MiB of records and images.
 constexpr std::uint32_t kBandPixels = 1u << 18;
+// Of --method field, whose records are smaller and whose bands overlap.
+constexpr std::uint32_t kGlowBandPixels = 1u << 20;
 
 std::uint32_t groupsFor(std::uint32_t threads) {
     return (threads + kGroupSize - 1) / kGroupSize;
@@ -54,6 +58,9 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
         choice.task = settings.writeOnly ? kTaskWrite : kTaskImages;
         return choice;
     }
+    if (settings.method == Method::field) {
+        return choice;
+    }
     if (settings.method == Method::path) {
         choice.model = settings.model;
         choice.model.scattering = Scattering::single;  // the orders are in the frame table
@@ -70,6 +77,10 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
     return choice;
 }
 
+float toleranceOf(const RenderSettings& settings) {
+    return static_cast<float>(settings.tolerance.value_or(kFieldTolerance));
+}
+
 void setPaths(FrameTable& table, const RenderSettings& settings) {
     const bool single = settings.model.scattering == Scattering::single;
     table.paths = settings.samples;
@@ -82,12 +93,17 @@ void setPaths(FrameTable& table, const RenderSettings& settings) {
 
 }  // namespace
 
+struct FrameRenderer::Band {
+    std::uint32_t firstPixel = 0, pixels = 0;  // in the order of the frame or the pixel list
+    std::uint32_t skipped = 0, kept = 0;       // of them
+    GlowBand glow;                             // of --method field
+};
+
 struct FrameRenderer::Work {
     const GpuScene& scene;
     const RenderSettings& settings;
     std::vector<vec2> samples;
-    std::uint64_t firstPixel = 0;  // in the order of the frame or the pixel list
-    std::uint64_t pixels = 0;
+    std::vector<Band> bands;
     FrameTable table{};        // of the frame, without the addresses of the band
     bool listed = false;       // a list of pixels, not all
     bool rasterised = false;
@@ -100,47 +116,102 @@ FrameRenderer::FrameRenderer(gpu::Device& device, gpu::Commands& commands)
 FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera,
                                 const RenderProduct& product, const RenderSettings& settings,
                                 const std::function<void(double)>& progress, Frame& frame) {
-    Work work{.scene = scene, .settings = settings, .samples = samplePositions(settings)};
-    work.listed = !product.pixels.empty();
-    work.pixels = product.pixels.size();
-    if (!work.listed) {
-        work.firstPixel = std::uint64_t{product.width} * product.rows().first;
-        work.pixels = std::uint64_t{product.width} * product.rows().count;
-    }
+    Work work{.scene = scene,
+              .settings = settings,
+              .samples = samplePositions(settings),
+              .bands = bandsOf(product, settings.method)};
+    work.listed = !product.pixels.empty() && settings.method != Method::field;
+    copied_ = 0;
     preparePipelines(scene, product, settings);
     prepareBand(work, camera, product);
 
     PushConstants push{};
     push.scene = addressWords(scene.tableAddress());
     push.frame = addressWords(band_->tableAddress());
-    for (std::uint64_t first = 0; first < work.pixels; first += band_->rays()) {
-        push.firstPixel = static_cast<std::uint32_t>(work.firstPixel + first);
-        push.pixelCount =
-            static_cast<std::uint32_t>(std::min<std::uint64_t>(band_->rays(), work.pixels - first));
+    for (std::size_t number = 0; number < work.bands.size(); ++number) {
+        const Band& band = work.bands[number];
+        push.firstPixel = band.firstPixel;
+        push.pixelCount = band.pixels;
+        if (glow_) {
+            glow_->setBand(band.glow, product.width, toleranceOf(settings), settings.glowRays);
+        }
         for (std::uint32_t sample = 0; sample < work.samples.size(); ++sample) {
             push.sampleIndex = sample;
             const auto report = [&](double share) {  // of this sample
                 if (progress) {
                     const double within = (sample + share) / static_cast<double>(work.samples.size());
-                    progress((static_cast<double>(first) + within * push.pixelCount) /
-                             static_cast<double>(work.pixels));
+                    progress((static_cast<double>(number) + within) /
+                             static_cast<double>(work.bands.size()));
                 }
             };
-            const bool last = sample + 1 == work.samples.size();
-            if (pipelines_->choice.task != kTaskRecords) {
-                surfaceSample(work, push, last);
-            } else if (settings.method == Method::path) {
-                tracePaths(work, push, report);
-                accumulateSample(work, push, last);
-            } else {
-                scatterSample(work, push);
-                accumulateSample(work, push, last);
-            }
+            renderSample(work, push, report);
             report(1);
         }
-        band_->copyTo(frame, first, push.pixelCount, product.aovs & pipelines_->choice.aovs);
+        copyBand(band, product, settings.method, frame);
     }
     return work.cost;
+}
+
+void FrameRenderer::renderSample(Work& work, const PushConstants& push,
+                                 const std::function<void(double)>& progress) {
+    const bool last = push.sampleIndex + 1 == work.samples.size();
+    if (pipelines_->choice.task != kTaskRecords) {
+        surfaceSample(work, push, last);
+    } else if (work.settings.method == Method::field) {
+        traceGlow(work, push, last);
+    } else if (work.settings.method == Method::path) {
+        tracePaths(work, push, progress);
+        accumulateSample(work, push, last);
+    } else {
+        scatterSample(work, push);
+        accumulateSample(work, push, last);
+    }
+}
+
+// The rows of --method field serve as neighbours of each other: of a list of pixels, whole rows
+// are rendered, so that a pixel is what it is in the frame.
+std::vector<FrameRenderer::Band> FrameRenderer::bandsOf(const RenderProduct& product,
+                                                        Method method) {
+    std::vector<Band> bands;
+    if (method == Method::field) {
+        const RowRange rows = product.pixels.empty() ? product.rows() : RowRange{0, product.height};
+        for (const GlowBand& glow :
+             glowBands(product.width, product.height, rows.first, rows.count, kGlowBandPixels)) {
+            bands.push_back({glow.firstRow * product.width, glow.rows * product.width,
+                             (glow.firstKeptRow - glow.firstRow) * product.width,
+                             glow.keptRows * product.width, glow});
+        }
+        return bands;
+    }
+    std::uint64_t first = 0;
+    std::uint64_t count = product.pixels.size();
+    if (product.pixels.empty()) {
+        first = std::uint64_t{product.width} * product.rows().first;
+        count = std::uint64_t{product.width} * product.rows().count;
+    }
+    for (std::uint64_t done = 0; done < count; done += kBandPixels) {
+        const auto pixels =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(kBandPixels, count - done));
+        bands.push_back({static_cast<std::uint32_t>(first + done), pixels, 0, pixels, {}});
+    }
+    return bands;
+}
+
+void FrameRenderer::copyBand(const Band& band, const RenderProduct& product, Method method,
+                             Frame& frame) {
+    const std::uint32_t aovs = product.aovs & pipelines_->choice.aovs;
+    if (method != Method::field || product.pixels.empty()) {
+        band_->copyTo(frame, copied_, band.skipped, band.kept, aovs);
+        copied_ += band.kept;
+        return;
+    }
+    const std::uint32_t first = band.firstPixel + band.skipped;
+    for (std::size_t i = 0; i < product.pixels.size(); ++i) {
+        const std::uint32_t pixel = product.pixels[i].y * product.width + product.pixels[i].x;
+        if (pixel >= first && pixel - first < band.kept) {
+            band_->copyTo(frame, i, pixel - band.firstPixel, 1, aovs);
+        }
+    }
 }
 
 void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderProduct& product,
@@ -148,6 +219,10 @@ void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderProduct&
     const PipelineChoice choice = chooseFor(scene, product, settings);
     if (!pipelines_ || pipelines_->choice != choice) {
         pipelines_ = std::make_unique<PassPipelines>(device_, choice);
+        glow_.reset();
+        if (choice.method == Method::field && choice.task == kTaskRecords) {
+            glow_ = std::make_unique<GlowPasses>(device_, commands_, choice.aovs);
+        }
         bound_ = false;
     }
     if (!bound_) {
@@ -157,9 +232,11 @@ void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderProduct&
 
 void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
                                 const RenderProduct& product) {
-    const std::uint32_t rays =
-        groupsFor(static_cast<std::uint32_t>(std::min<std::uint64_t>(work.pixels, kBandPixels))) *
-        kGroupSize;
+    std::uint32_t most = 0;
+    for (const Band& band : work.bands) {
+        most = std::max(most, band.pixels);
+    }
+    const std::uint32_t rays = groupsFor(most) * kGroupSize;
     const Method method = work.settings.method;
     if (!band_ || band_->rays() != rays || band_->method() != method) {
         band_.reset();
@@ -179,7 +256,13 @@ void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
     work.rasterised = work.settings.primary == Primary::raster && !work.settings.writeOnly &&
                       raster_.serves(work.scene, product.width, product.height);
     table.proposals = work.rasterised ? raster_.prepare(product.width, product.height) : uvec2(0);
-    band_->prepare(commands_, table, product.pixels, work.samples);
+    if (glow_) {
+        glow_->reserve(rays);
+        glow_->clearBand();
+        table.glowTable = addressWords(glow_->tableAddress());
+    }
+    band_->prepare(commands_, table, work.listed ? product.pixels : std::vector<uvec2>{},
+                   work.samples);
     if (!bound_) {
         warmUp(work.scene);
         bound_ = true;
@@ -196,6 +279,9 @@ void FrameRenderer::warmUp(const GpuScene& scene) {
         for (const gpu::ComputePipeline* pipeline : pipelines_->all()) {
             pipeline->dispatch(commands, &push, 1);
         }
+        if (glow_) {
+            glow_->recordWarmUp(commands, push);
+        }
     });
 }
 
@@ -203,10 +289,12 @@ void FrameRenderer::recordSurface(VkCommandBuffer commands, const Work& work,
                                   const PushConstants& push) {
     // The proposals of one sample serve all bands; those of several replace each other.
     const bool oneSample = work.samples.size() == 1;
-    if (work.rasterised && (push.firstPixel == work.firstPixel || !oneSample)) {
+    if (work.rasterised && (push.firstPixel == work.bands.front().firstPixel || !oneSample)) {
         FrameRows rows{work.table.width, work.table.height, 0, work.table.height};
         if (!work.listed) {
-            const std::uint64_t count = oneSample ? work.pixels : push.pixelCount;
+            const Band& last = work.bands.back();
+            const std::uint64_t count = oneSample ? last.firstPixel - push.firstPixel + last.pixels
+                                                  : push.pixelCount;
             rows.first = push.firstPixel / rows.width;
             rows.count =
                 static_cast<std::uint32_t>((push.firstPixel + count - 1) / rows.width) + 1 - rows.first;
@@ -283,6 +371,24 @@ void FrameRenderer::scatterSample(Work& work, PushConstants push) {
             return;
         }
     }
+}
+
+void FrameRenderer::traceGlow(Work& work, const PushConstants& push, bool last) {
+    const double milliseconds = commands_.run("trace", [&](VkCommandBuffer commands) {
+        timestamps_.begin(commands);
+        recordSurface(commands, work, push);
+        if ((pipelines_->choice.aovs & kAovMediaId) != 0) {
+            dispatch(commands, "media ids", pipelines_->mediaIds, push);
+        }
+        glow_->record(commands, push, [&](const char* name, const std::function<void()>& pass) {
+            timestamps_.span(commands, name, pass);
+            gpu::computeBarrier(commands);
+        });
+        if (last) {
+            band_->images().recordReadback(commands);
+        }
+    });
+    collectTimes(work.cost, milliseconds);
 }
 
 void FrameRenderer::accumulateSample(Work& work, const PushConstants& push, bool last) {

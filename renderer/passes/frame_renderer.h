@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Renders a frame band by band: raster and surface, and its light; traverse and march or
-// gauss, or path; accumulate. Without haze the surface pass writes the images itself.
+// gauss, or path; accumulate. Or raster, surface and the passes of glow_passes.h. Without haze the
+// surface pass writes the images itself.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include "gpu/commands.h"
 #include "gpu/timestamps.h"
 #include "passes/band_buffers.h"
+#include "passes/glow_passes.h"
 #include "passes/gpu_scene.h"
 #include "passes/pass_pipelines.h"
 #include "passes/triangle_raster.h"
@@ -42,6 +44,7 @@ public:
 
 private:
     struct Work;  // one render call
+    struct Band;  // pixels that the passes cover at once
 
     void preparePipelines(const GpuScene& scene, const RenderProduct& product,
                           const RenderSettings& settings);
@@ -52,7 +55,12 @@ private:
     void surfaceSample(Work& work, const PushConstants& push, bool last);
     void tracePaths(Work& work, PushConstants push, const std::function<void(double)>& progress);
     void scatterSample(Work& work, PushConstants push);
+    void renderSample(Work& work, const PushConstants& push,
+                      const std::function<void(double)>& progress);
+    void traceGlow(Work& work, const PushConstants& push, bool last);
     void accumulateSample(Work& work, const PushConstants& push, bool last);
+    static std::vector<Band> bandsOf(const RenderProduct& product, Method method);
+    void copyBand(const Band& band, const RenderProduct& product, Method method, Frame& frame);
     void dispatch(VkCommandBuffer commands, const char* name, const gpu::ComputePipeline& pipeline,
                   const PushConstants& push);
     void collectTimes(FrameCost& cost, double milliseconds);
@@ -64,7 +72,9 @@ private:
     TriangleRaster raster_;
     std::unique_ptr<PassPipelines> pipelines_;
     std::unique_ptr<BandBuffers> band_;
+    std::unique_ptr<GlowPasses> glow_;  // from the first frame of --method field on
     bool bound_ = false;
+    std::uint64_t copied_ = 0;  // pixels of this frame that are on the host
 };
 
 }  // namespace nightcity

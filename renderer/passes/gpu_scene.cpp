@@ -6,8 +6,9 @@
 #include <span>
 
 #include "passes/light_tree.h"
+#include "passes/near_panes.h"
 #include "passes/occluder_tree.h"
-#include "scene/facades.h"
+#include "scene/surface_planes.h"
 #include "scene/uniform_haze.h"
 
 namespace nightcity {
@@ -106,6 +107,7 @@ void GpuScene::uploadGeometry(const FlatScene& scene) {
     contents_.triangleFacade = uploadArray<uint>("facades of triangles", facades.triangleFacade);
     contents_.looseWindows = uploadArray<uint>("loose windows", facades.looseWindows);
     contents_.lightList = uploadArray("light list", scene.lightList);
+    uploadPlanes(scene, facades);
     contents_.groundMaterial = scene.ground ? scene.ground->material : kNone;
     contents_.groundHeight = scene.ground ? scene.ground->height : 0;
 }
@@ -120,6 +122,28 @@ void GpuScene::uploadMediaTree(const FlatScene& scene) {
     }
     contents_.mediaNodes = uploadArray<BoxNode>("media tree", packBoxTree(BoxTree(boxes)));
     uniformHaze_ = nightcity::isHazeUniform(scene);
+}
+
+void GpuScene::uploadPlanes(const FlatScene& scene, const FacadeTable& facades) {
+    const SurfacePlanes planes = findSurfacePlanes(scene, facades);
+    contents_.trianglePlane = uploadArray<uint>("planes of triangles", planes.ofTriangle);
+    contents_.windowPlane = uploadArray<uint>("planes of windows", planes.ofWindow);
+}
+
+void GpuScene::uploadNearField(const FlatScene& scene) {
+    NearPanes near = buildNearPanes(scene, farField_.table());
+    nearField_.clear();
+    const auto keep = [&](const char* name, const void* data, std::uint64_t bytes) {
+        nearField_.emplace_back(device_, name, bytes, gpu::MemoryKind::device);
+        commands_.upload(nearField_.back(), data, bytes);
+        return addressWords(nearField_.back().address());
+    };
+    near.table.panes = keep("near panes", near.panes.data(), near.panes.size() * sizeof(NearPane));
+    near.table.cellStart = keep("near cell starts", near.cellStart.data(),
+                                near.cellStart.size() * sizeof(uint));
+    near.table.cellPanes = keep("near cell panes", near.cellPanes.data(),
+                                near.cellPanes.size() * sizeof(uint));
+    contents_.nearField = keep("near table", &near.table, sizeof(NearTable));
 }
 
 void GpuScene::uploadOccluders(const FlatScene& scene) {
@@ -223,6 +247,7 @@ void GpuScene::syncFarField(const FlatScene& scene, std::span<const std::uint8_t
         farField_.syncGeometry(scene, settings, tableAddress());
         farFieldSettings_ = settings;
         contents_.farField = addressWords(farField_.tableAddress());
+        uploadNearField(scene);
         writeTable();
     }
     farField_.syncWindowState(scene, windowOn, tableAddress());

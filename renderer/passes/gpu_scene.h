@@ -17,6 +17,7 @@
 #include "passes/far_field_grid.h"
 #include "passes/light_buffers.h"
 #include "passes/triangle_chunks.h"
+#include "scene/facades.h"
 #include "scene/flat_scene.h"
 #include "settings.h"
 
@@ -35,8 +36,9 @@ public:
     // Which windows are on at a frame, and the lists of those that are.
     void syncWindowState(const FlatScene& scene, int frame, const RenderSettings& settings);
 
-    // The far field of the windows that are on, one byte a window: laid out anew where geometry
-    // or settings changed, else only updated. To be called after syncWindowState.
+    // The far field of the windows that are on, one byte a window, and where the near parts of all
+    // windows lie: laid out anew where geometry or settings changed, else only updated. To be
+    // called after syncWindowState.
     void syncFarField(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
                       const FarFieldSettings& settings);
 
@@ -59,6 +61,8 @@ private:
     void uploadGeometry(const FlatScene& scene);
     void uploadOccluders(const FlatScene& scene);
     void uploadMediaTree(const FlatScene& scene);
+    void uploadPlanes(const FlatScene& scene, const FacadeTable& facades);
+    void uploadNearField(const FlatScene& scene);
     void buildTriangles(const FlatScene& scene);
     void buildMedia(const FlatScene& scene);
     void buildLoosePanes(const FlatScene& scene);
@@ -84,6 +88,7 @@ private:
     gpu::Buffer lightTrails_;
     LightBuffers lights_;
     FarFieldGrid farField_;
+    std::vector<gpu::Buffer> nearField_;
     std::optional<FarFieldSettings> farFieldSettings_;  // that the far field was laid out for
     gpu::Buffer table_;
     SceneTable contents_{};

@@ -8,6 +8,7 @@
 #include "gauss_spirv.h"
 #include "lit_spirv.h"
 #include "march_spirv.h"
+#include "media_ids_spirv.h"
 #include "path_spirv.h"
 #include "surface_spirv.h"
 #include "traverse_spirv.h"
@@ -17,10 +18,10 @@ namespace {
 
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(MarchMedium) == 20);
-static_assert(sizeof(SceneTable) == 22 * 8 + 16);
+static_assert(sizeof(SceneTable) == 25 * 8 + 16);
 static_assert(sizeof(BoxNode) == 32);
 static_assert(sizeof(OccluderFace) == 20);
-static_assert(sizeof(FrameTable) == 19 * 8 + 20 + sizeof(CameraFrame) + 12 + 8 + 16);
+static_assert(sizeof(FrameTable) == 20 * 8 + 20 + sizeof(CameraFrame) + 12 + 8 + 16);
 static_assert(sizeof(PushConstants) == 32);  // devices give at least 128
 static_assert(sizeof(SurfaceRecord) == 32);
 static_assert(sizeof(RayProgress) == 32);
@@ -97,6 +98,8 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
         makePath(device);
     } else if (choice.method == Method::gauss) {
         makeGauss(device);
+    } else if (choice.method == Method::field) {
+        mediaIds = makePipeline(device, "media ids", kMediaIdsSpirv, {kStructure});
     } else {
         makeMarch(device);
     }
@@ -138,6 +141,10 @@ void PassPipelines::bind(const GpuScene& scene) {
         path.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
         return;
     }
+    if (choice.method == Method::field) {
+        mediaIds.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
+        return;
+    }
     traverse.bindAccelerationStructure(NIGHTCITY_BINDING_STRUCTURE, scene.structure());
     if (choice.readsPages()) {
         scene.lights().bind(inScatter);
@@ -150,6 +157,9 @@ std::vector<const gpu::ComputePipeline*> PassPipelines::all() const {
     }
     if (choice.method == Method::path) {
         return {&surface, &path, &accumulate};
+    }
+    if (choice.method == Method::field) {
+        return {&surface, &mediaIds};
     }
     if (choice.lightsSurfaces()) {
         return {&surface, &lit, &traverse, &inScatter, &accumulate};

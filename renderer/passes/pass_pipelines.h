@@ -55,6 +55,7 @@ struct PassPipelines {
     gpu::ComputePipeline traverse;   // with march and gauss and records only
     gpu::ComputePipeline inScatter;  // march, or gauss
     gpu::ComputePipeline path;       // with the path tracer only
+    gpu::ComputePipeline mediaIds;   // with the field only
     gpu::ComputePipeline accumulate;  // with records only
 
     PassPipelines(gpu::Device& device, const PipelineChoice& choice);

@@ -133,6 +133,9 @@ struct SceneTable {
     uvec2 occluderNodes;   // BoxNode over the faces; 0 where nothing is opaque but the ground
     uvec2 occluderFaces;   // OccluderFace
     uvec2 occluderCorners; // vec3, m
+    uvec2 nearField;       // NearTable of glow.h; 0 for methods without
+    uvec2 trianglePlane;   // uint a triangle: those of one number lie in one plane
+    uvec2 windowPlane;     // uint a window: the same number as the wall behind it
 };
 
 struct FrameTable {
@@ -161,6 +164,7 @@ struct FrameTable {
     vec3 positionLow;   // m, added to camera.position: what float lost of it
     float tolerance;    // of Method::gauss, relative
     uint lightCap;      // lit windows of a media box that count, at most
+    uvec2 glowTable;    // GlowTable of glow.h; 0 for methods without
     // Of the path tracer; 0 for other methods.
     uvec2 pathSums;     // PathSums, one a ray of the band
     uvec2 glowSquares;  // vec3, one a pixel of the band: sum over all paths of glow^2

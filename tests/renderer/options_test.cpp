@@ -82,7 +82,7 @@ TEST(Options, VersionAndHelpAreAnswered) {
 }
 
 TEST(Options, UnknownChoicesNameTheKnownOnes) {
-    EXPECT_REFUSED("there is march", "s", "-o", "a.exr", "--method", "field");
+    EXPECT_REFUSED("there is march", "s", "-o", "a.exr", "--method", "rays");
     EXPECT_REFUSED("there is single", "s", "-o", "a.exr", "--scattering", "twice");
     EXPECT_REFUSED("there is paper", "s", "-o", "a.exr", "--model", "best");
 }

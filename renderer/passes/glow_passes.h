@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The passes of --method field over one band (shaders/shared/glow.h): choose rays, integrate
+// along them, choose more where glow bends, composite.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "dispatch.h"
+#include "glow.h"
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
+#include "gpu/compute_pipeline.h"
+#include "settings.h"
+
+namespace nightcity {
+
+// Whole rows of a frame. What the passes cover reaches past the rows that are kept, as far as
+// these depend on their neighbours; so a frame is the same in any bands.
+struct GlowBand {
+    std::uint32_t firstRow = 0, rows = 0;          // covered
+    std::uint32_t firstKeptRow = 0, keptRows = 0;  // of the frame
+};
+
+// Bands that keep `count` rows of a frame from row `first` on, each covering at most about
+// `pixels` pixels.
+std::vector<GlowBand> glowBands(std::uint32_t width, std::uint32_t height, std::uint32_t first,
+                                std::uint32_t count, std::uint64_t pixels);
+
+class GlowPasses {
+public:
+    // `aovs`: images that the composite writes (aovs.h).
+    GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32_t aovs);
+
+    // For bands of at most so many pixels.
+    void reserve(std::uint32_t pixels);
+    // Of the GlowTable.
+    VkDeviceAddress tableAddress() const { return table_.address(); }
+
+    // To be called before the passes of a band are recorded. `tolerance`: relative.
+    void setBand(const GlowBand& band, std::uint32_t width, float tolerance, GlowRays rays);
+    // Forgets the band: the passes then find nothing to do.
+    void clearBand();
+    // One dispatch of each, to be called after clearBand().
+    void recordWarmUp(VkCommandBuffer commands, const PushConstants& push) const;
+    // Surfaces of the band must be found. `timed(name, record)` times what it records and puts a
+    // compute barrier behind it.
+    using Timed = std::function<void(const char*, const std::function<void()>&)>;
+    void record(VkCommandBuffer commands, PushConstants push, const Timed& timed) const;
+
+private:
+    gpu::Device& device_;
+    gpu::Commands& commands_;
+    gpu::ComputePipeline plan_, trace_, refine_, composite_;
+    gpu::Buffer samples_, cells_, lists_, rounds_, table_;
+    GlowTable contents_{};
+};
+
+}  // namespace nightcity

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The near part of a pane's fluence (near_far_split.h), integrated along a ray:
+//
+//   Int omega(x(t)) nearShare(d^2 / R^2) exp(-tau (t + mean distance to the pane)) dt    (m sr)
+//
+// over the part of the ray within R of the pane's centre and in front of it. Times the
+// pane's radiance P / (pi A) this is the integral of the near fluence. Binding-free.
+//
+// The nodes lie evenly in the angle under which the pane sees the ray, as if the ray passed
+// it at least at half a side (airlight_pane_near.h). How many are needed depends on how near
+// the ray comes, in sides: past one side four are within 1 % (99 of 100 random rays);
+// below a third of a side the ray is cut at its nearest points to the pane's edges.
+#ifndef NIGHTCITY_TRANSPORT_NEAR_WINDOW_H
+#define NIGHTCITY_TRANSPORT_NEAR_WINDOW_H
+
+#include "airlight_pane_near.h"
+#include "near_far_split.h"
+
+NIGHTCITY_BEGIN
+
+// Sides from the pane within which a ray is cut at the pane's edges.
+NIGHTCITY_CONST float kNearCutSides = 0.3f;
+
+// The part of [begin, end] of the ray within `radius` of the origin, as (begin, end); empty where
+// end <= begin. `foot` is the nearest point of the ray, `delta` m along it.
+NIGHTCITY_FUNCTION vec2 ballChord(vec3 foot, float delta, float radius, float begin, float end) {
+    float reach2 = radius * radius - dot(foot, foot);
+    if (reach2 <= 0.0f) {
+        return vec2(0.0f, 0.0f);
+    }
+    float reach = sqrt(reach2);
+    return vec2(max(begin, delta - reach), min(end, delta + reach));
+}
+
+// The same in front of a pane and about its centre.
+NIGHTCITY_FUNCTION vec2 nearChord(PaneFrame pane, float radius, float begin, float end) {
+    float delta = -dot(pane.origin, pane.direction);
+    vec3 foot = pane.origin + delta * pane.direction;
+    vec2 chord = ballChord(foot, delta, radius, begin, end);
+    float speed = pane.direction.z;
+    float crossing = delta - foot.z / (abs(speed) > 1e-12f ? speed : 1e-12f);
+    if (speed > 0.0f) {
+        chord.x = max(chord.x, crossing);
+    } else if (speed < 0.0f) {
+        chord.y = min(chord.y, crossing);
+    } else if (foot.z <= 0.0f) {
+        chord.y = chord.x;
+    }
+    return chord;
+}
+
+// Sides (root of the area) from the pane to the point of an interval nearest its centre.
+NIGHTCITY_FUNCTION float nearSides(AirlightInterval i, PaneFrame pane) {
+    vec3 nearest = i.foot + clamp(0.0f, i.ua, i.ub) * pane.direction;
+    vec3 beyond = max(abs(nearest) - vec3(pane.a, pane.b, 0.0f), vec3(0.0f, 0.0f, 0.0f));
+    return 0.5f * sqrt(dot(beyond, beyond) / (pane.a * pane.b));
+}
+
+// Nodes of an interval at so many sides, for a relative tolerance of 1e-4 to 0.1 of the
+// whole pane's light on it: half as many again for each decimal.
+NIGHTCITY_FUNCTION int nearNodes(float sides, float tolerance) {
+    float atPercent = sides > 1.75f            ? 3.0f
+                      : sides > 0.75f          ? 4.0f
+                      : sides > 0.55f          ? 5.0f
+                      : sides > 0.4f           ? 6.0f
+                      : sides > kNearCutSides  ? 8.0f
+                                               : 5.0f;  // a piece
+    float decimals = -0.30103f * log2(100.0f * tolerance);
+    return int(clamp(ceil(atPercent * (1.0f + 0.5f * decimals) - 0.01f), 2.0f, float(kGaussMost)));
+}
+
+// One piece of an interval; interval.begin counts from where the attenuation does.
+NIGHTCITY_FUNCTION float nearPiece(AirlightInterval i, PaneFrame pane, float radius,
+                                   float extinction, int count) {
+    float area = 4.0f * pane.a * pane.b;
+    AirlightInterval wide = i;
+    wide.h = sqrt(i.h * i.h + 0.33f * area);
+    wide.da = sqrt(wide.h * wide.h + i.ua * i.ua);
+    wide.db = sqrt(wide.h * wide.h + i.ub * i.ub);
+    float arc = airlightArc(wide);
+    float sum = 0.0f;
+    for (int index = 0; index < count; ++index) {
+        vec2 node = gaussNode(count, index);
+        float step = airlightStepOfArc(wide, arc, node.x);
+        float u = i.ua + step;
+        float d2 = i.h * i.h + u * u;
+        vec3 point = i.foot + u * pane.direction;
+        point.z = max(point.z, kPaneNearest);
+        float angle = paneSolidAngle(point, pane.a, pane.b);
+        float mean = paneMeanDistance(area, point.z, angle);
+        float light = angle * nearShare(d2 / (radius * radius)) *
+                      airlightAttenuation(i, extinction, step, mean);
+        sum += node.y * (wide.h * wide.h + u * u) * light;
+    }
+    return sum * arc / wide.h;
+}
+
+// The ray passes within kNearCutSides: pieces between its nearest points to the edges.
+NIGHTCITY_FUNCTION float nearPieces(AirlightInterval i, PaneFrame pane, float radius,
+                                    float extinction, int count) {
+    vec4 cuts = paneEdgeCuts(i, pane);
+    float shortest = 1e-4f * (pane.a + pane.b);
+    float low = i.ua;
+    float sum = 0.0f;
+    for (int k = 0; k < 5; ++k) {
+        float high = k < 4 ? cuts[k] : i.ub;
+        if (k < 4 && (high - low < shortest || i.ub - high < shortest)) {
+            continue;  // no piece of its own
+        }
+        sum += nearPiece(airlightPart(i, low, high), pane, radius, extinction, count);
+        low = high;
+    }
+    return sum;
+}
+
+// chord: of nearChord, not empty; attenuation along the ray counts from `begin` (m).
+// extinction in 1/m, 0 to 10; tolerance as in nearNodes.
+NIGHTCITY_FUNCTION float nearWindow(PaneFrame pane, float radius, vec2 chord, float begin,
+                                    float extinction, float tolerance) {
+    AirlightInterval i = airlightInterval(pane.origin, pane.direction, chord.x, chord.y);
+    i.begin -= begin;
+    float sides = nearSides(i, pane);
+    int count = nearNodes(sides, tolerance);
+    return sides > kNearCutSides ? nearPiece(i, pane, radius, extinction, count)
+                                 : nearPieces(i, pane, radius, extinction, count);
+}
+
+// Int nearShare(d^2 / R^2) exp(-tau (t + d)) / d^2 dt (1/m) of a sphere of light, about whose
+// centre the interval is, outside of it: its near fluence for an intensity of 1 W/sr.
+NIGHTCITY_FUNCTION float nearSpherePiece(AirlightInterval i, float radius, float extinction) {
+    const int kNodes = 8;  // 1e-3 of all that the share takes from the integral
+    float arc = airlightArc(i);
+    float sum = 0.0f;
+    for (int index = 0; index < kNodes; ++index) {
+        vec2 node = gaussNode(kNodes, index);
+        float step = airlightStepOfArc(i, arc, node.x);
+        float d = airlightDistance(i, step);
+        sum += node.y * nearShare(d * d / (radius * radius)) *
+               airlightAttenuation(i, extinction, step, d);
+    }
+    return sum * arc / i.h;
+}
+
+// fromCentre: the ray's origin less the centre; chord: of ballChord, not empty.
+NIGHTCITY_FUNCTION float nearSphere(vec3 fromCentre, vec3 direction, float size, float radius,
+                                    vec2 chord, float begin, float extinction) {
+    AirlightInterval i = airlightInterval(fromCentre, direction, chord.x, chord.y);
+    i.begin -= begin;
+    if (i.h >= size) {
+        return nearSpherePiece(i, radius, extinction);
+    }
+    float inside = sqrt(size * size - i.h * i.h);
+    float sum = 0.0f;
+    if (i.ua < -inside) {
+        sum += nearSpherePiece(airlightPart(i, i.ua, min(i.ub, -inside)), radius, extinction);
+    }
+    if (i.ub > inside) {
+        sum += nearSpherePiece(airlightPart(i, max(i.ua, inside), i.ub), radius, extinction);
+    }
+    return sum;
+}
+
+NIGHTCITY_END
+
+#endif

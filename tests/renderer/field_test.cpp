@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Frames of --method field: against the judge, and the same however they are cut.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "device_frame.h"
+#include "passes/glow_passes.h"
+#include "reference/reference_renderer.h"
+
+namespace nightcity {
+namespace {
+
+const Model kSingle{Lights::all, Visibility::full, Emitter::pane, Scattering::single,
+                    Surfaces::dim};
+
+RenderSettings fieldSettings(GlowRays rays = GlowRays::sparse) {
+    RenderSettings settings;
+    settings.method = Method::field;
+    settings.model = kSingle;
+    settings.tolerance = 0.01;
+    settings.glowRays = rays;
+    return settings;
+}
+
+Frame judged(const FlatScene& scene, const RenderProduct& product) {
+    RenderSettings settings;
+    settings.method = Method::reference;
+    settings.model = kSingle;
+    settings.tolerance = 0.01;
+    return renderReference(scene, product, settings, {}).frame;
+}
+
+// Every `step`th pixel of a product, along both sides.
+RenderProduct some(RenderProduct product, std::uint32_t step) {
+    for (std::uint32_t y = step / 2; y < product.height; y += step) {
+        for (std::uint32_t x = step / 2; x < product.width; x += step) {
+            product.pixels.emplace_back(x, y);
+        }
+    }
+    return product;
+}
+
+// One box building, two lit windows on its front and a room of haze before it.
+SceneBuilder twoWindows() {
+    SceneBuilder city;
+    const uint wall = city.addMaterial(vec3(0.5f));
+    city.ground = GroundPlane{0, wall};
+    city.addBoxBuilding({-6, 0, 0}, {6, 8, 12}, wall);
+    city.addWindow({-2, -0.01f, 6}, {0.6f, 0, 0}, {0, 0, 0.75f}, 50, vec3(1, 0.8f, 0.5f));
+    city.addWindow({2, -0.01f, 6}, {0.6f, 0, 0}, {0, 0, 0.75f}, 50, vec3(0.5f, 0.8f, 1));
+    city.addMediaBox({-8, -12, 0}, {8, 0, 12}, 0.02f, 0.9f, {0, 1});
+    city.addCamera("front", {1, -20, 7}, {0, 0, 6}, 40);
+    city.addCamera("inside", {-4, -6, 5}, {2, 0, 6}, 60);
+    // 1 cm before the pane, along the facade.
+    city.addCamera("atPane", {-2, -0.02f, 6}, {6, -0.5f, 6}, 50);
+    return city;
+}
+
+void expectSame(const Frame& a, const Frame& b) {
+    ASSERT_EQ(a.beauty.size(), b.beauty.size());
+    EXPECT_EQ(std::memcmp(a.beauty.data(), b.beauty.data(), a.beauty.size() * sizeof(glm::vec4)), 0);
+    EXPECT_EQ(std::memcmp(a.glow.data(), b.glow.data(), a.glow.size() * sizeof(glm::vec3)), 0);
+    EXPECT_EQ(a.transmittance, b.transmittance);
+    EXPECT_EQ(a.mediaId, b.mediaId);
+    EXPECT_EQ(a.depth, b.depth);
+}
+
+struct Case {
+    const char* camera;
+    double median, worst;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.camera; }
+
+class FieldCameras : public testing::TestWithParam<Case> {};
+
+TEST_P(FieldCameras, AgreeWithTheJudge) {
+    const FlatScene scene = twoWindows().load();
+    const RenderProduct product = some(productOf(GetParam().camera, 120, 80), 24);
+    const Frame field = renderOnDevice(scene, product, fieldSettings());
+    const Frame judge = judged(scene, product);
+    const GlowErrors errors = glowErrors(field, judge);
+    EXPECT_LT(errors.median, GetParam().median);
+    EXPECT_LT(errors.worst, GetParam().worst);
+    for (std::size_t i = 0; i < judge.transmittance.size(); ++i) {
+        EXPECT_NEAR(field.transmittance[i], judge.transmittance[i], 1e-3);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(TwoWindows, FieldCameras,
+                         testing::Values(Case{"front", 0.005, 0.03}, Case{"inside", 0.01, 0.03},
+                                         Case{"atPane", 0.005, 0.03}));
+
+TEST(Field, SparseRaysStayWithinTheToleranceOfAllRays) {
+    const FlatScene scene = twoWindows().load();
+    const RenderProduct product = productOf("front", 301, 203);
+    const GlowErrors errors =
+        glowErrors(renderOnDevice(scene, product, fieldSettings()),
+                   renderOnDevice(scene, product, fieldSettings(GlowRays::all)));
+    EXPECT_LT(errors.median, 1e-3);
+    EXPECT_LT(errors.worst, 0.1);
+    EXPECT_LT(std::abs(errors.bias), 1e-3);
+}
+
+TEST(Field, PixelsAndTilesEqualTheFrame) {
+    const FlatScene scene = twoWindows().load();
+    const RenderProduct product = productOf("inside", 131, 90);
+    const Frame whole = renderOnDevice(scene, product, fieldSettings());
+    const RenderProduct list = some(product, 7);
+    const Frame pixels = renderOnDevice(scene, list, fieldSettings());
+    for (std::size_t i = 0; i < list.pixels.size(); ++i) {
+        const std::size_t at = list.pixels[i].y * product.width + list.pixels[i].x;
+        EXPECT_EQ(pixels.glow[i], whole.glow[at]);
+        EXPECT_EQ(pixels.beauty[i], whole.beauty[at]);
+    }
+    RenderProduct tile = product;
+    tile.tile = RowRange{30, 37};
+    const Frame part = renderOnDevice(scene, tile, fieldSettings());
+    for (std::size_t i = 0; i < part.glow.size(); ++i) {
+        ASSERT_EQ(part.glow[i], whole.glow[i + std::size_t{30} * product.width]);
+    }
+}
+
+TEST(Field, IsTheSameEachTime) {
+    const FlatScene scene = twoWindows().load();
+    const RenderProduct product = productOf("inside", 90, 61);
+    const Frame first = renderOnDevice(scene, product, fieldSettings());
+    expectSame(first, renderOnDevice(scene, product, fieldSettings()));
+}
+
+TEST(Field, BandsCoverEveryRowOnceWithItsNeighbours) {
+    for (const std::uint32_t first : {0u, 5u, 64u}) {
+        const std::uint32_t count = 337;
+        std::uint32_t next = first;
+        for (const GlowBand& band : glowBands(100, 500, first, count, 10000)) {
+            EXPECT_EQ(band.firstKeptRow, next);
+            EXPECT_EQ(band.firstRow % kGlowCell, 0u);
+            EXPECT_LE(band.firstRow, band.firstKeptRow - std::min(band.firstKeptRow, kGlowCell));
+            next += band.keptRows;
+            EXPECT_GE(band.firstRow + band.rows, std::min(500u, next + kGlowCell + 1));
+            EXPECT_LE(band.firstRow + band.rows, 500u);
+        }
+        EXPECT_EQ(next, first + count);
+    }
+}
+
+// The second difference of a pixel over a dolly, against its value.
+TEST(Field, IsSmoothWhereTheCameraMovesByMillimetres) {
+    const FlatScene scene = twoWindows().load();
+    RenderProduct product = some(productOf("front", 160, 100), 20);
+    const RenderSettings settings = fieldSettings();
+    std::vector<std::vector<glm::vec3>> steps;
+    RenderDelegate& delegate = testDelegate();
+    delegate.sync(scene, 1, settings, {});
+    for (int i = 0; i < 20; ++i) {
+        product.cameraOffset = {0.001f * float(i), 0, 0};
+        delegate.render(product, settings, {});
+        steps.push_back(delegate.resolve().glow);
+    }
+    for (std::size_t p = 0; p < product.pixels.size(); ++p) {
+        for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
+            const float bend = steps[i - 1][p].y - 2 * steps[i][p].y + steps[i + 1][p].y;
+            EXPECT_LE(std::abs(bend), 0.01f * steps[i][p].y + 1e-6f);
+        }
+    }
+}
+
+TEST(Field, IsBlackWithoutWindowsAndWithoutHaze) {
+    SceneBuilder dark = twoWindows();
+    dark.windows.clear();
+    dark.mediaBoxes.clear();
+    dark.lightList.clear();
+    dark.buildings[0].windowCount = 0;
+    const RenderProduct product = productOf("front", 40, 30);
+    SceneBuilder hazy = dark;
+    hazy.addMediaBox({-8, -12, 0}, {8, 0, 12}, 0.02f, 0.9f);
+    for (const SceneBuilder& city : {dark, hazy}) {
+        const Frame frame = renderOnDevice(city.load(), product, fieldSettings());
+        for (std::size_t i = 0; i < frame.glow.size(); ++i) {
+            ASSERT_EQ(frame.glow[i], glm::vec3(0));
+            ASSERT_TRUE(std::isfinite(frame.beauty[i].x));
+        }
+    }
+}
+
+TEST(Field, FollowsTheWindowsThatAreOn) {
+    SceneBuilder city = twoWindows();
+    const RenderProduct product = productOf("front", 64, 48);
+    const Frame both = renderOnDevice(city.load(), product, fieldSettings(GlowRays::all));
+    city.windows[1].flags &= ~kWindowOn;
+    const Frame first = renderOnDevice(city.load(), product, fieldSettings(GlowRays::all));
+    city.windows[0].flags &= ~kWindowOn;
+    city.windows[1].flags |= kWindowOn;
+    const Frame second = renderOnDevice(city.load(), product, fieldSettings(GlowRays::all));
+    for (std::size_t i = 0; i < both.glow.size(); ++i) {
+        const glm::vec3 sum = first.glow[i] + second.glow[i];
+        EXPECT_NEAR(both.glow[i].y, sum.y, 0.003f * sum.y + 1e-6f);
+    }
+}
+
+}  // namespace
+}  // namespace nightcity
