@@ -36,7 +36,8 @@ bool isShadowed(Window window, Stretch stretch, LightGroup group) {
                              begin + stretch.span * stretch.direction);
     for (uint k = 0u; k < group.candidates; ++k) {
         OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[candidateFaces[k]];
-        if (mayCrossPlane(between, face)) {
+        if (mayCrossPlane(between, face) &&
+            !isOwnWall(face, window.centre, outward(window))) {
             return true;
         }
     }
@@ -68,7 +69,7 @@ float windowOver(Window window, Stretch stretch, LightGroup group, vec2 range, f
                                   offset + place.x * emitter.halfU + place.y * emitter.halfV, stretch);
         float from = range.x;
         while (from < range.y) {
-            Shadows shadows = shadowsOn(eye, group, vec2(from, range.y));
+            Shadows shadows = shadowsOn(eye, outward(window), group, vec2(from, range.y));
             while (from < shadows.horizon) {
                 vec2 seen = firstSeen(shadows);
                 if (seen.y - seen.x > kSliver * stretch.span) {

@@ -34,6 +34,12 @@ struct LightGroup {
     uint candidates;  // faces, also those beyond kMostCandidates
 };
 
+// Unit vector, to the bright side; 0 for a sphere, which has none.
+vec3 outward(Window window) {
+    bool isSphere = (window.flags & kWindowSphere) != 0u;
+    return isSphere ? vec3(0.0) : paneNormal(window);
+}
+
 float meanOf(vec3 colour) {
     return (colour.r + colour.g + colour.b) / 3.0;
 }
@@ -119,6 +125,14 @@ uint nextWindow(inout LightGroup group) {
     return child & ~kLightLeaf;
 }
 
+// Whether the plane of a face comes as near to the group as a window's own wall does.
+bool mayBeOwnWall(LightGroup group, uint index) {
+    OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
+    vec3 corner = Vec3Array(sceneTable.occluderCorners).at[face.firstCorner];
+    float height = abs(dot(face.normal, group.centre - corner));
+    return height - dot(abs(face.normal), group.extent) <= kPaneOnWall;
+}
+
 // For each candidate what it hides from every corner of the group's box, and so from all of
 // the box: a way between the two crosses the face within the hull of the ways between corners.
 void findHiddenFromAll(LightGroup group, Stretch stretch, uint count) {
@@ -134,6 +148,10 @@ void findHiddenFromAll(LightGroup group, Stretch stretch, uint count) {
         vec3 place = vec3(corner & 1u, corner >> 1 & 1u, corner >> 2) * 2.0 - 1.0;
         PointView view = pointView(group.centre, place * group.extent, stretch);
         for (uint k = 0u; k < count; ++k) {
+            if (mayBeOwnWall(group, candidateFaces[k])) {
+                hiddenFromAll[k].y = 0.0;
+                continue;
+            }
             vec2 hidden = shadowOf(view, candidateFaces[k]);
             // Of a corner on the line no plane is known.
             hidden.y = view.interval.h > 1e-4 ? hidden.y : 0.0;
@@ -167,14 +185,17 @@ vec2 rangeOf(LightGroup group, Stretch stretch) {
     return vec2(min(seen.x, end), end);
 }
 
-// The shadows on the stretch from `from` on, for one point of the group.
-Shadows shadowsOn(PointView view, LightGroup group, vec2 range) {
+// The shadows on the stretch from `from` on, for one point of a window of the group. `normal`:
+// of the window; 0 for a sphere.
+Shadows shadowsOn(PointView view, vec3 normal, LightGroup group, vec2 range) {
     Shadows shadows = noShadows(range.x, range.y);
     bool fits = group.candidates <= kMostCandidates;
     uint walk = 0u;
     for (uint k = 0u; k < group.candidates; ++k) {
         uint face = fits ? candidateFaces[k] : nextOccluder(walk, group.between);
-        addShadow(shadows, shadowOf(view, face));
+        if (!isOwnWall(OccluderFaceArray(sceneTable.occluderFaces).at[face], view.anchor, normal)) {
+            addShadow(shadows, shadowOf(view, face));
+        }
     }
     return shadows;
 }

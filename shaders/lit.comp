@@ -72,12 +72,14 @@ bool stands(uint index, SurfacePoint point, vec3 way) {
     return inside;
 }
 
-bool isHidden(SurfacePoint point, vec3 way, LightGroup group) {
+bool isHidden(Window window, SurfacePoint point, vec3 way, LightGroup group) {
     uint walk = 0u;
     for (uint k = 0u; k < group.candidates; ++k) {
         uint face = group.candidates <= kMostCandidates ? candidateFaces[k]
                                                         : nextOccluder(walk, group.between);
-        if (stands(face, point, way)) {
+        if (stands(face, point, way) &&
+            !isOwnWall(OccluderFaceArray(sceneTable.occluderFaces).at[face], window.centre,
+                       outward(window))) {
             return true;
         }
     }
@@ -96,7 +98,7 @@ float pieceOver(Window window, vec3 offset, SurfacePoint point, LightGroup group
         lobe = max(-dot(normalize(cross(window.halfU, window.halfV)), way) / d, 0.0);
     }
     if (received <= 0.0 || lobe <= 0.0 || (isSphere && d < length(window.halfU)) ||
-        isHidden(point, way, group)) {
+        isHidden(window, point, way, group)) {
         return 0.0;
     }
     float depth = extinction * d;

@@ -101,6 +101,20 @@ bool mayCrossPlane(Between between, OccluderFace face) {
            max(near, max(begin, end) + far) >= height - kBetweenSlack;
 }
 
+// Whether a face is the wall that a window lies on: it reaches in front of the window's plane,
+// and nowhere further than kPaneOnWall from it. `normal`: 0 for a sphere, which has none.
+bool isOwnWall(OccluderFace face, vec3 centre, vec3 normal) {
+    float most = 0.0;
+    bool isNear = true;
+    for (uint k = 0u; k < face.cornerCount && isNear; ++k) {
+        vec3 corner = Vec3Array(sceneTable.occluderCorners).at[face.firstCorner + k];
+        float height = dot(normal, corner - centre);
+        most = max(most, height);
+        isNear = abs(height) <= kPaneOnWall;
+    }
+    return isNear && most > 0.0;
+}
+
 // The next box of a tree that may lie between, or kNone. `walk` is 0 at first.
 uint nextBoxBetween(uvec2 tree, inout uint walk, Between between) {
     if (tree == uvec2(0)) {

@@ -9,11 +9,6 @@
 #include "camera_ray.glsl"
 #include "transport/emitters.glsl"
 
-// A wall hides no pane of which it is this little in front (m, along the pane's
-// normal): panes are meant to lie on their walls, and some stages put them there
-// to within rounding, on either side. As in renderer/reference.
-const float kPaneOnWall = 0.05;
-
 vec3 paneNormal(Window window) {
     return normalize(cross(window.halfU, window.halfV));
 }

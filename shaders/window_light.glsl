@@ -25,6 +25,8 @@ struct Emitter {
 // Optical depth where quadrature is no longer cut into more pieces.
 const float kDepthOfPiece = 2.0;
 const float kMostDepthPieces = 8.0;
+// Light that goes 10 km through clear air to thin haze: exp(-excess) alone would overflow.
+const float kMostExcess = 20.0;
 
 float windowTolerance() {
     return max(0.5 * frameTable.tolerance, 1e-4);
@@ -101,7 +103,9 @@ float inMixedHaze(Emitter emitter, PointView view, AirlightInterval part, float 
             float here = toSource - extinction * d;
             excess = k == 1 ? here : excess;
             excesses = vec2(min(excesses.x, here), max(excesses.y, here));
-            if (k == 2 && (isNear || excesses.y - excesses.x < 0.1 * windowTolerance())) {
+            bool isSame = excesses.y - excesses.x < 0.1 * windowTolerance() &&
+                          abs(excess) < kMostExcess;
+            if (k == 2 && (isNear || isSame)) {
                 return -1.0;
             }
             pieces = clamp(ceil(change / kDepthOfPiece), 1.0, kMostDepthPieces);

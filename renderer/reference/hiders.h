@@ -14,11 +14,6 @@
 
 namespace nightcity {
 
-// A wall hides no light of a window that lies this little behind it (m): windows are
-// meant to lie on their walls, and some stages put them there to within rounding, on
-// either side. Cameras see them likewise (OpaqueSurfaces, shaders/pane.glsl).
-inline constexpr double kPaneOnWall = 0.05;
-
 // Whether a face is a wall that a window lies on: it reaches in front of the window's
 // plane, and nowhere further than kPaneOnWall from it.
 bool isOwnWall(std::span<const glm::dvec3> face, const LitWindow& window);

@@ -16,11 +16,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Surfaces are shown at a tenth of their colour (the paper, `--surfaces dim`).
 constexpr double kDim = 0.1;
 
-// A wall hides no pane of which it is this little in front (m, along the pane's
-// normal): panes are meant to lie on their walls, and some stages put them there
-// to within rounding, on either side.
-constexpr double kPaneOnWall = 0.05;
-
 // Share of a triangle's size by which its edges reach further, so that rounding
 // leaves no gap between neighbours.
 constexpr double kEdgeSlack = 1e-9;

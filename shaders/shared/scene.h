@@ -15,6 +15,11 @@ NIGHTCITY_CONST uint kNone = 0xffffffffu;      // an index that points nowhere
 NIGHTCITY_CONST uint kWindowOn = 1u;           // Window.flags: on at the first frame
 NIGHTCITY_CONST uint kWindowSphere = 2u;       // Window.flags: a sphere of radius |halfU|
 
+// A wall hides no pane of which it is this little in front (m, along the pane's normal): panes
+// are meant to lie on their walls, and some stages put them there to within rounding, on
+// either side.
+NIGHTCITY_CONST float kPaneOnWall = 0.05f;
+
 // Opaque geometry, counter-clockwise seen from outside.
 struct Triangle {
     uvec3 vertex;   // into position
