@@ -30,7 +30,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     tables = command.add_subparsers(
         dest="table",
         metavar="TABLE",
-        help="without one: time, memory and size of every step, and the rates of the march",
+        help="without one: time, memory and size of every step, and every method beside the march",
     )
     for add in (_accuracy, _ladder, _mitsuba):
         add(tables)
@@ -42,7 +42,7 @@ def _accuracy(tables: argparse._SubParsersAction) -> None:
         help="every method against the judge, at pixels chosen at random",
         description="Exit code 1 where a line misses its bar: p99 within the tolerance (p95 "
         "below 1,000 pixels); of path, means within three standard errors, no pixel beyond "
-        "Sidak's bound, standard error of the mean at most 0.5 %%.",
+        "Sidak's bound, standard error of the mean at most 0.5 %.",
     )
     _add_scenes(table, "paper-4x4 and mixed-6x6, where no town is named either")
     _add_views(table)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Nightcity authors
 # SPDX-License-Identifier: Apache-2.0
-"""``nightcity bench``: time, memory and size of every step, and the rates of the march.
+"""``nightcity bench``: time, memory and size of every step, and every method beside the march.
 
 Each step is a process of its own, measured by the operating system's accounting. Times on a
 shared machine mean little; the ratios, from one interleaved run, are what to quote.
@@ -44,6 +44,13 @@ _MARCHES = tuple(
     for order in ("steps", "lights")
     for storage in ("uniform", "storage")
 )
+_METHODS = (
+    *_MARCHES,
+    Setting("gauss, the paper's model", ("--model", "paper", "--method", "gauss")),
+    Setting("field, all lights, full, panes", ("--model", "single", "--method", "field")),
+)
+# Where each method integrates the light of the windows.
+_SCATTER_PASSES = ("march", "gauss", "glow")
 
 
 @dataclass(frozen=True)
@@ -58,7 +65,7 @@ class Cost:
 
 
 def bench(presets: Sequence[str], towns: Sequence[Path]) -> None:
-    """Print what every step costs, for all scenes named, and the march's rates on the first."""
+    """Print what every step costs, for all scenes named, and every method on the first."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         sources = [(preset, ["generate", "--preset", preset]) for preset in presets]
@@ -73,7 +80,7 @@ def bench(presets: Sequence[str], towns: Sequence[Path]) -> None:
         for label, command in sources:
             scenes.append((label, _measure_steps(label, command, folder)))
         _print_surface_table(*scenes[0], folder)
-        _print_march_table(*scenes[0], folder)
+        _print_method_table(*scenes[0], folder)
 
 
 def _measure_steps(label: str, command: list[str], folder: Path) -> Path:
@@ -144,8 +151,8 @@ def _print_surface_table(label: str, scene: Path, folder: Path) -> None:
         )
 
 
-def _print_march_table(label: str, scene: Path, folder: Path) -> None:
-    timings: dict[Setting, list[Timing]] = {setting: [] for setting in (_SURFACE, *_MARCHES)}
+def _print_method_table(label: str, scene: Path, folder: Path) -> None:
+    timings: dict[Setting, list[Timing]] = {setting: [] for setting in (_SURFACE, *_METHODS)}
     for _ in range(_ROUNDS):
         for setting, measured in timings.items():
             measured.append(time_frames(scene, _VIEW, setting, _REPEATS, folder))
@@ -157,24 +164,23 @@ def _print_march_table(label: str, scene: Path, folder: Path) -> None:
     )
     print(
         "| setting | steady frame, ms | spread, ms | to the surface frame | first frame, ms "
-        "| surface pass | traverse pass | march pass, ms | G light evaluations/s a core |"
+        "| bake, ms | memory, MB | surface pass | traverse pass | scatter pass, ms "
+        "| G light evaluations/s a core |"
     )
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
     for setting, measured in timings.items():
         steady = [t.steady_frame_ms for t in measured]
         passes = {
             name: statistics.median(t.passes.get(name, 0.0) for t in measured)
-            for name in ("surface", "traverse", "march")
+            for name in ("surface", "traverse", *_SCATTER_PASSES)
         }
-        rate = (
-            f"{measured[0].light_evaluations / passes['march'] / 1e6 / cores:.2f}"
-            if passes["march"]
-            else ""
-        )
+        scatter = sum(passes[name] for name in _SCATTER_PASSES)
+        evaluations = measured[0].light_evaluations
+        rate = f"{evaluations / scatter / 1e6 / cores:.2f}" if scatter and evaluations else ""
         print(
             f"| {setting.name} | {statistics.median(steady):.1f} | {max(steady) - min(steady):.1f} "
             f"| {statistics.median(steady) / surface:.2f} | {measured[0].first_frame_ms:.1f} "
-            f"| {passes['surface']:.1f} | {passes['traverse']:.1f} | {passes['march']:.1f} "
-            f"| {rate} |",
+            f"| {measured[0].bake_ms:.0f} | {measured[0].memory_bytes / 1e6:.0f} "
+            f"| {passes['surface']:.1f} | {passes['traverse']:.1f} | {scatter:.1f} | {rate} |",
             flush=True,
         )
