@@ -12,8 +12,6 @@
 
 layout(local_size_x = kGroupSize) in;
 
-const float kMostPanePieces = 16.0;  // along each side
-const float kPaneShare = 0.5;        // of the tolerance
 const float kDeepAcross = 0.25;      // optical depth of half a pane that is not taken whole
 
 bool isBehindGround(float height, Stretch stretch) {

@@ -20,6 +20,8 @@ const uint kGroupMost = 24u;       // windows
 const uint kDeepestNode = 32u;     // levels of the tree
 const uint kMostCandidates = 32u;  // faces that are kept for a group
 const float kLeftOut = 0.1;        // of the tolerance
+const float kMostPanePieces = 16.0;  // along each side
+const float kPaneShare = 0.5;        // of the tolerance
 
 uint openNodes[kDeepestNode];
 uint candidateFaces[kMostCandidates];

@@ -14,8 +14,6 @@ layout(local_size_x = kGroupSize) in;
 layout(constant_id = NIGHTCITY_CONSTANT_MEDIA) const uint kMedia = 1;
 
 const float kDim = 0.1;              // of surface_shading.glsl
-const float kMostPanePieces = 16.0;  // along each side
-const float kPaneShare = 0.5;        // of the tolerance
 const float kBeforeSurface = 1e-3;   // m, towards the camera: inside the box that the ray ends in
 
 // A place of a surface, as a stretch without length.

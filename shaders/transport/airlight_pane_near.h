@@ -65,15 +65,21 @@ NIGHTCITY_FUNCTION vec4 paneEdgeCuts(AirlightInterval i, PaneFrame pane) {
     return vec4(outer.x, inner.x, inner.y, outer.y);
 }
 
-// One piece between two cuts, for `count` nodes: the tangent substitution about the
-// centre, as if the ray passed it at least at half a side.
-NIGHTCITY_FUNCTION float airlightPanePiece(AirlightInterval i, PaneFrame pane, float extinction,
-                                           int count) {
-    float area = 4.0f * pane.a * pane.b;
+// The interval as if the ray passed the centre of a pane of `area` m^2 at least at half a side.
+NIGHTCITY_FUNCTION AirlightInterval airlightWide(AirlightInterval i, float area) {
     AirlightInterval wide = i;
     wide.h = sqrt(i.h * i.h + 0.33f * area);
     wide.da = sqrt(wide.h * wide.h + i.ua * i.ua);
     wide.db = sqrt(wide.h * wide.h + i.ub * i.ub);
+    return wide;
+}
+
+// One piece between two cuts, for `count` nodes: the tangent substitution about the
+// centre in the wide interval.
+NIGHTCITY_FUNCTION float airlightPanePiece(AirlightInterval i, PaneFrame pane, float extinction,
+                                           int count) {
+    float area = 4.0f * pane.a * pane.b;
+    AirlightInterval wide = airlightWide(i, area);
     float arc = airlightArc(wide);
     float sum = 0.0f;
     for (int index = 0; index < count; ++index) {

@@ -75,10 +75,7 @@ NIGHTCITY_FUNCTION int nearNodes(float sides, float tolerance) {
 NIGHTCITY_FUNCTION float nearPiece(AirlightInterval i, PaneFrame pane, float radius,
                                    float extinction, int count) {
     float area = 4.0f * pane.a * pane.b;
-    AirlightInterval wide = i;
-    wide.h = sqrt(i.h * i.h + 0.33f * area);
-    wide.da = sqrt(wide.h * wide.h + i.ua * i.ua);
-    wide.db = sqrt(wide.h * wide.h + i.ub * i.ub);
+    AirlightInterval wide = airlightWide(i, area);
     float arc = airlightArc(wide);
     float sum = 0.0f;
     for (int index = 0; index < count; ++index) {
