@@ -18,6 +18,7 @@ WINDOW_SCALE = 1.3  # Brito, Real-time Night City Rendering
 # the list of the double-precision ones.
 TOUCH_TOLERANCE = 1e-3  # m
 _BLOCK = 1 << 20  # candidates at a time; bounds the memory beside the result
+_WINDOWS = 1 << 18  # windows at a time, for the same end
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -51,22 +52,25 @@ def light_lists(
     Work grows with the windows near each box: windows lie in columns of a grid, of which only the
     occupied ones are stored.
     """
-    windows = _centres_and_halves(window_lo, window_hi, "window")
-    boxes = _centres_and_halves(box_lo, box_hi, "box")
+    window_lo, window_hi = _corners(window_lo, window_hi, "window")
+    boxes = _centres_and_halves(*_corners(box_lo, box_hi, "box"))
     scale = np.broadcast_to(np.asarray(reach_scale, dtype=np.float64), (len(boxes[0]),))
     if not np.isfinite(scale).all() or (scale < 0).any():
         raise ValueError("reach_scale must be finite and not negative")
-    windows = windows[0], windows[1] * WINDOW_SCALE
     boxes = boxes[0], boxes[1] * scale[:, None] + TOUCH_TOLERANCE
-    pairs = [_touching_pairs(members, windows, boxes) for members in _size_classes(windows[1])]
-    box = np.concatenate([found[0] for found in pairs] or [np.empty(0, np.int64)])
-    window = np.concatenate([found[1] for found in pairs] or [np.empty(0, np.int64)])
-    order = np.lexsort((window, box))
+    found = [(np.empty(0, np.int64), np.empty(0, np.int64))]
+    for start in range(0, len(window_lo), _WINDOWS):
+        block = slice(start, start + _WINDOWS)
+        box, window = _block_pairs(window_lo[block], window_hi[block], boxes)
+        found.append((box, window + start))
+    box, window = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    # Within a block pairs ascend by window: a stable sort keeps that within each box.
+    order = np.argsort(box, kind="stable")
     counts = np.bincount(box, minlength=len(boxes[0]))
     return np.concatenate(([0], np.cumsum(counts))).astype(np.int64), window[order]
 
 
-def _centres_and_halves(lo: ArrayLike, hi: ArrayLike, name: str) -> tuple[FloatArray, FloatArray]:
+def _corners(lo: ArrayLike, hi: ArrayLike, name: str) -> tuple[FloatArray, FloatArray]:
     lo, hi = np.asarray(lo, dtype=np.float64), np.asarray(hi, dtype=np.float64)
     if lo.size == 0 and hi.size == 0:
         return np.empty((0, 3)), np.empty((0, 3))
@@ -76,7 +80,28 @@ def _centres_and_halves(lo: ArrayLike, hi: ArrayLike, name: str) -> tuple[FloatA
         )
     if not (np.isfinite(lo).all() and np.isfinite(hi).all()) or (lo > hi).any():
         raise ValueError(f"{name}_lo and {name}_hi must be finite, with lo <= hi")
+    return lo, hi
+
+
+def _centres_and_halves(lo: FloatArray, hi: FloatArray) -> tuple[FloatArray, FloatArray]:
     return 0.5 * (lo + hi), 0.5 * (hi - lo)
+
+
+def _block_pairs(
+    lo: FloatArray, hi: FloatArray, boxes: tuple[FloatArray, FloatArray]
+) -> tuple[IntArray, IntArray]:
+    """All (box, window) that touch, by box, then window."""
+    centre, half = _centres_and_halves(lo, hi)
+    windows = centre, half * WINDOW_SCALE
+    low, high = (centre - windows[1]).min(axis=0), (centre + windows[1]).max(axis=0)
+    near = np.flatnonzero(
+        ((boxes[0] - boxes[1] <= high) & (boxes[0] + boxes[1] >= low)).all(axis=1)
+    )
+    boxes = boxes[0][near], boxes[1][near]
+    pairs = [_touching_pairs(members, windows, boxes) for members in _size_classes(windows[1])]
+    box, window = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
+    order = np.lexsort((window, box))
+    return near[box[order]], window[order]
 
 
 def _size_classes(halves: FloatArray) -> Iterator[IntArray]:

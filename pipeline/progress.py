@@ -12,7 +12,12 @@ _TERMINAL_SECONDS = 0.1
 
 
 class Progress:
-    """``with Progress("writing windows", total) as progress: ... progress.advance()``."""
+    """``with Progress("writing windows", total) as progress: ... progress.advance()``.
+
+    shown: False in a process whose parent shows the progress.
+    """
+
+    shown = True
 
     def __init__(self, label: str, total: int) -> None:
         self._label, self._total, self._done = label, max(total, 1), 0
@@ -23,7 +28,7 @@ class Progress:
         return self
 
     def __exit__(self, *exception: object) -> None:
-        if self._terminal:
+        if self._terminal and self.shown:
             sys.stderr.write("\r\x1b[K")
             sys.stderr.flush()
 
@@ -31,6 +36,8 @@ class Progress:
         """Say that ``count`` more of the total are done."""
         self._done += count
         now = time.monotonic()
+        if not self.shown:
+            return
         if now - self._shown < (_TERMINAL_SECONDS if self._terminal else _LINE_SECONDS):
             return
         self._shown = now

@@ -14,6 +14,7 @@ from nightcity.errors import SceneError
 PATH = Path(__file__).resolve().parent
 NAMES = (
     "NightcityCityAPI",
+    "NightcityDistrictAPI",
     "NightcityBuildingAPI",
     "NightcityGroundAPI",
     "NightcityWindowsAPI",

@@ -13,7 +13,7 @@ from nightcity.city.box_buildings import box_mesh, city_materials
 from nightcity.city.facades import city_windows
 from nightcity.city.grid_cameras import grid_cameras
 from nightcity.city.heights import BuildingShapes, building_shapes
-from nightcity.city.model import Building, City, LightLists, MediaBox, Mesh
+from nightcity.city.model import Building, City, FloatArray, LightLists, MediaBox, Mesh
 from nightcity.city.parameters import CityParameters
 from nightcity.city.seeds import Purpose, generator
 from nightcity.city.street_grid import StreetGrid, media_boxes, street_grid
@@ -75,13 +75,18 @@ def _buildings(
 
 def _light_lists(buildings: list[Building], media: tuple[MediaBox, ...]) -> LightLists:
     """Window ids are indices here: both run through the buildings in order."""
-    counts = [len(building.windows) for building in buildings]
-    centres = np.concatenate([building.windows.centres for building in buildings])
-    centres += np.repeat(np.array([building.origin for building in buildings]), counts, axis=0)
-    half_u = np.concatenate([building.windows.half_u for building in buildings])
-    half_v = np.concatenate([building.windows.half_v for building in buildings])
+    bounds: dict[int, tuple[FloatArray, FloatArray]] = {}  # buildings of one shape share a layout
+    lo, hi = [], []
+    for building in buildings:
+        windows = building.windows
+        layout = id(windows.centres)
+        if layout not in bounds:
+            bounds[layout] = window_bounds(windows.centres, windows.half_u, windows.half_v)
+        lo.append(bounds[layout][0] + building.origin)
+        hi.append(bounds[layout][1] + building.origin)
     offsets, indices = light_lists(
-        *window_bounds(centres, half_u, half_v),
+        np.concatenate(lo),
+        np.concatenate(hi),
         np.array([box.lo for box in media]),
         np.array([box.hi for box in media]),
         np.array([box.reach_scale for box in media]),

@@ -19,6 +19,12 @@ _LARGEST_ID = 2**31 - 1  # nightcity:windowLights holds 32-bit integers
 
 def check_city(city: City) -> None:
     """Raise SceneError, naming the record and the field, unless a stage can be written."""
+    check_whole(city)
+    check_parts(city)
+
+
+def check_whole(city: City) -> None:
+    """What the city says as a whole: names and numbers used once, lists that fit the windows."""
     _require(identifier(city.name), "the city", "name", f"{city.name!r} is no USD identifier")
     _require(
         np.isfinite([*city.origin_offset, city.ground_height]).all(),
@@ -45,6 +51,13 @@ def check_city(city: City) -> None:
             "ground_material",
             f"{city.ground_material} is none of {len(city.materials)} materials",
         )
+    for camera in city.cameras:
+        _check_camera(camera)
+    _check_light_lists(city)
+
+
+def check_parts(city: City) -> None:
+    """Each building and each media box on its own, as they are in a city or in one district."""
     for building in city.buildings:
         where = f"building {building.building_id}"
         _require(0 <= building.building_id <= _LARGEST_ID, where, "building_id", "out of range")
@@ -52,9 +65,6 @@ def check_city(city: City) -> None:
         _check_windows(building, where)
     for box in city.media:
         _check_media_box(box)
-    for camera in city.cameras:
-        _check_camera(camera)
-    _check_light_lists(city)
 
 
 def _require(holds: bool | np.bool_, where: str, field: str, message: str) -> None:

@@ -20,11 +20,7 @@ _GROUND_LEAST = 5000.0  # m, and at least so far: close to the horizon
 
 def write_geometry(city: City, layer: Sdf.Layer, texture_folder: str) -> None:
     """Write everything opaque, about each building's own origin, into an empty layer."""
-    root = layout.city_prim(layer)
-    looks = PrimWriter(root, layout.LOOKS.name, "Scope")
-    for material in city.materials:
-        write_material(looks, material, texture_folder)
-    _write_ground(city, root)
+    root = write_ground(city, layer, texture_folder)
     buildings = PrimWriter(root, layout.BUILDINGS.name, "Xform")
     buildings.spec.kind = "group"
     with Progress("writing buildings", len(city.buildings)) as progress:
@@ -34,6 +30,16 @@ def write_geometry(city: City, layer: Sdf.Layer, texture_folder: str) -> None:
             for building in members:
                 _write_building(city, group, building)
             progress.advance(len(members))
+
+
+def write_ground(city: City, layer: Sdf.Layer, texture_folder: str) -> PrimWriter:
+    """Write the looks and the ground into an empty layer; returns the city's prim."""
+    root = layout.city_prim(layer)
+    looks = PrimWriter(root, layout.LOOKS.name, "Scope")
+    for material in city.materials:
+        write_material(looks, material, texture_folder)
+    _write_ground(city, root)
+    return root
 
 
 def _write_building(city: City, group: PrimWriter, building: Building) -> None:

@@ -15,6 +15,7 @@ from nightcity.stage.attributes import PrimWriter
 GROUP_SIZE = 100  # siblings under one prim; viewers and the Usd API slow down with thousands
 CITY = Sdf.Path("/City")
 BUILDINGS = CITY.AppendChild("Buildings")
+DISTRICTS = CITY.AppendChild("Districts")
 MEDIA = CITY.AppendChild("Media")
 LOOKS = CITY.AppendChild("Looks")
 CAMERAS = CITY.AppendChild("Cameras")
@@ -29,6 +30,10 @@ def groups(items: Sequence[_Item]) -> Iterator[tuple[str, Sequence[_Item]]]:
     """Cut a sequence into named groups of at most GROUP_SIZE."""
     for index, start in enumerate(range(0, len(items), GROUP_SIZE)):
         yield f"Group_{index:04d}", items[start : start + GROUP_SIZE]
+
+
+def district_name(index: int) -> str:
+    return f"District_{index:04d}"
 
 
 def building_name(building: Building) -> str:

@@ -61,16 +61,20 @@ def centre_and_half(lo: FloatArray, hi: FloatArray) -> tuple[FloatArray, FloatAr
 
 
 def _sources(city: City) -> list[list[Sdf.Path]]:
-    """For each box the instancers whose windows light it, in the city's order."""
+    """For each box the instancers whose windows light it, in the city's order. In a district only
+    its own: a payload cannot point at what stands in another."""
     paths = layout.instancer_paths(city)
     ids = np.concatenate([building.windows.ids for building in city.buildings] or [[]])
     owner = np.repeat(np.arange(len(paths)), [len(each.windows) for each in city.buildings])
     order = np.argsort(ids)
     lists = city.light_lists
-    building = owner[order][np.searchsorted(ids[order], lists.window_ids)]
-    box = np.repeat(np.arange(len(city.media)), np.diff(lists.offsets))
-    pairs = np.unique(box * max(len(paths), 1) + building)
     found: list[list[Sdf.Path]] = [[] for _ in city.media]
+    if len(ids) == 0:
+        return found
+    place = order[np.minimum(np.searchsorted(ids[order], lists.window_ids), len(ids) - 1)]
+    here = ids[place] == lists.window_ids
+    box = np.repeat(np.arange(len(city.media)), np.diff(lists.offsets))
+    pairs = np.unique(box[here] * len(paths) + owner[place[here]])
     for pair in pairs.tolist():
         found[pair // len(paths)].append(paths[pair % len(paths)])
     return found

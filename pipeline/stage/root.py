@@ -10,12 +10,14 @@ from pxr import Gf, Sdf
 
 from nightcity.city.model import City
 from nightcity.stage import layout
+from nightcity.stage.attributes import PrimWriter
 from nightcity.stage.render_settings import write_render_settings
 
 _DOCUMENTATION = """A city at night for the Nightcity renderer: right-handed, z up, metres, watts.
 
 Each sublayer holds one thing and can be overridden above, muted or exchanged on its own: cameras,
-media (haze), windows, geometry. The attributes named nightcity:... are built-in where
+media (haze), windows, geometry. A large city keeps the last three in districts, each
+a payload with such sublayers of its own. The attributes named nightcity:... are built-in where
 PXR_PLUGINPATH_NAME names the folder of Nightcity's schemas, and readable everywhere."""
 
 
@@ -24,8 +26,7 @@ def write_root(city: City, layer: Sdf.Layer, sublayers: list[str]) -> None:
     layer.documentation = _DOCUMENTATION
     layer.startTimeCode = layer.endTimeCode = 1.0
     layer.framesPerSecond = layer.timeCodesPerSecond
-    for name in sublayers:
-        layer.subLayerPaths.append(f"./{name}")
+    _stack(layer, sublayers)
     root = layout.city_prim(layer, ["NightcityCityAPI"])
     root.spec.kind = "assembly"
     root.spec.SetInfo("displayName", city.name)
@@ -35,3 +36,25 @@ def write_root(city: City, layer: Sdf.Layer, sublayers: list[str]) -> None:
     if city.notes:
         root.spec.comment = "\n".join(city.notes)
     write_render_settings(city, layer)
+
+
+def write_district(layer: Sdf.Layer, sublayers: list[str]) -> None:
+    """Write the root layer of a district over ``sublayers``; it can be opened on its own."""
+    _stack(layer, sublayers)
+    layout.city_prim(layer)
+
+
+def write_districts(layer: Sdf.Layer, files: list[str]) -> None:
+    """Write a prim for each district, with its file, relative to the layer's, as its payload."""
+    holder = PrimWriter(layout.city_prim(layer), layout.DISTRICTS.name, "Xform")
+    holder.spec.kind = "group"
+    for index, file in enumerate(files):
+        name = layout.district_name(index)
+        prim = PrimWriter(holder, name, "Xform", ["NightcityDistrictAPI"])
+        prim.spec.kind = "group"
+        prim.spec.payloadList.prependedItems = [Sdf.Payload(f"./{file}")]
+
+
+def _stack(layer: Sdf.Layer, sublayers: list[str]) -> None:
+    for name in sublayers:
+        layer.subLayerPaths.append(f"./{name}")
