@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,32 +26,47 @@ _LENS = (
 )
 
 
-def read_cameras(
-    source: Source, items: Sequence[Item], origin: NDArray[np.float64]
-) -> tuple[list[dict], NDArray]:
-    """The manifest's ``cameras`` and the array ``camera_frame``, positions about origin (3,) m.
+@dataclass
+class CameraTrack:
+    """A camera over the frames, or one record where it does not move.
 
-    Raises SceneError naming the camera whose lens or transform is unusable.
+    name, path: of the prim. records: (F,) camera_frame without positions. positions: (F, 3) m, on
+    the stage.
     """
-    items = [item for item in items if _is_perspective(source, item.prim)]
-    names = Counter(item.prim.GetName() for item in items)
-    entries, tracks, first = [], [], 0
-    for item in items:
-        prim = item.prim
-        track = _track(source, prim, origin)
-        path, name = str(prim.GetPath()), prim.GetName()
+
+    name: str
+    path: str
+    records: NDArray
+    positions: NDArray[np.float64]
+
+
+def read_cameras(source: Source, items: Sequence[Item]) -> list[CameraTrack]:
+    """Every perspective camera. Raises SceneError naming the one whose lens or transform is
+    unusable."""
+    return [_track(source, item.prim) for item in items if _is_perspective(source, item.prim)]
+
+
+def camera_records(
+    tracks: Sequence[CameraTrack], first_frame: int, origin: NDArray[np.float64]
+) -> tuple[list[dict], NDArray]:
+    """The manifest's ``cameras`` and the array ``camera_frame``, positions about origin (3,) m."""
+    names = Counter(track.name for track in tracks)
+    entries, arrays, first = [], [np.zeros(0, RECORDS["camera_frame"])], 0
+    for track in tracks:
+        records = track.records
+        records["position"] = track.positions - origin
         entries.append(
             {
-                "name": name if names[name] == 1 else path,
-                "prim": path,
-                "first_frame": source.frames[0],
+                "name": track.name if names[track.name] == 1 else track.path,
+                "prim": track.path,
+                "first_frame": first_frame,
                 "first": first,
-                "count": len(track),
+                "count": len(records),
             }
         )
-        tracks.append(track)
-        first += len(track)
-    return entries, np.concatenate([np.zeros(0, RECORDS["camera_frame"]), *tracks])
+        arrays.append(records)
+        first += len(records)
+    return entries, np.concatenate(arrays)
 
 
 def _is_perspective(source: Source, prim: Usd.Prim) -> bool:
@@ -63,11 +79,15 @@ def _is_perspective(source: Source, prim: Usd.Prim) -> bool:
     return True
 
 
-def _track(source: Source, prim: Usd.Prim, origin: NDArray[np.float64]) -> NDArray:
+def _track(source: Source, prim: Usd.Prim) -> CameraTrack:
     first, last = source.frames
     frames = range(first, last + 1) if _moves(source, prim) else [first]
-    track = np.concatenate([_record(source, prim, frame, origin) for frame in frames])
-    return track[:1] if (track == track[0]).all() else track
+    read = [_record(source, prim, frame) for frame in frames]
+    records = np.concatenate([record for record, _ in read])
+    positions = np.array([position for _, position in read])
+    if (records == records[0]).all() and (positions == positions[0]).all():
+        records, positions = records[:1], positions[:1]
+    return CameraTrack(prim.GetName(), str(prim.GetPath()), records, positions)
 
 
 def _moves(source: Source, prim: Usd.Prim) -> bool:
@@ -80,7 +100,8 @@ def _moves(source: Source, prim: Usd.Prim) -> bool:
     return False
 
 
-def _record(source: Source, prim: Usd.Prim, frame: int, origin: NDArray[np.float64]) -> NDArray:
+def _record(source: Source, prim: Usd.Prim, frame: int) -> tuple[NDArray, NDArray[np.float64]]:
+    """A camera_frame (1,) without its position, and the position (3,) m."""
     time, path = Usd.TimeCode(frame), prim.GetPath()
     lens = np.array([prim.GetAttribute(name).Get(time) for name in _LENS], dtype=np.float64)
     if not np.isfinite(lens).all() or (lens[:3] <= 0).any():
@@ -98,12 +119,11 @@ def _record(source: Source, prim: Usd.Prim, frame: int, origin: NDArray[np.float
     if np.linalg.det(matrix[:3, :3]) < 0:
         source.notes.about("A mirrored camera is taken unmirrored", path)
     record = np.zeros(1, RECORDS["camera_frame"])
-    record["position"] = matrix[3, :3] - origin
     record["tan_half_fov"] = height / (2 * focal)
     record["right"], record["up"], record["forward"] = right, np.cross(right, forward), forward
     record["shift_x"], record["shift_y"] = 2 * offset_x / height, 2 * offset_y / height
     record["aspect"] = width / height
-    return record
+    return record, matrix[3, :3]
 
 
 def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -13,16 +13,12 @@ from numpy.typing import NDArray
 
 from nightcity.errors import SceneError, UsageError
 from nightcity.export import emitters
-from nightcity.export.cameras import read_cameras
-from nightcity.export.emitters import EmitterTable
-from nightcity.export.findings import Findings
-from nightcity.export.geometry import read_geometry
-from nightcity.export.ground import read_ground
-from nightcity.export.lights import read_lights
+from nightcity.export.cameras import camera_records
+from nightcity.export.ground import only_ground
 from nightcity.export.lists import read_lists
-from nightcity.export.materials import Materials
-from nightcity.export.media import read_media
+from nightcity.export.media import settle_media
 from nightcity.export.open_stage import Source, open_stage
+from nightcity.export.part import Part, read_whole
 from nightcity.export.render_settings import read_render_settings
 from nightcity.export.scene_arrays import (
     building_records,
@@ -32,8 +28,6 @@ from nightcity.export.scene_arrays import (
     scene_origin,
     window_records,
 )
-from nightcity.export.walk import walk
-from nightcity.export.windows import read_windows
 from nightcity.export.write import write_scene
 
 LISTS = ("recomputed", "authored")
@@ -79,9 +73,9 @@ def export_stage(
         raise UsageError(f"lists must be one of {', '.join(LISTS)}, not '{lists}'")
     stage_path, folder = Path(stage_path), Path(folder)
     source = open_stage(stage_path, frames)
-    findings = walk(source)
-    _refuse_empty(stage_path, findings)
-    arrays, manifest = _flatten(source, findings, lists)
+    part = read_whole(source, stage_path)
+    _refuse_empty(stage_path, part)
+    arrays, manifest = _flatten(source, part, lists)
     sizes = write_scene(folder, arrays, manifest)
     return ExportReport(
         folder,
@@ -92,31 +86,31 @@ def export_stage(
     )
 
 
-def _refuse_empty(path: Path, findings: Findings) -> None:
-    if not any(findings.items.values()):
+def _refuse_empty(path: Path, part: Part) -> None:
+    if part.is_empty:
         raise SceneError(
             f"{path}: nothing on the stage is visible and renderable: no geometry, window, media"
             " box, light or camera"
         )
 
 
-def _flatten(source: Source, findings: Findings, lists: str) -> tuple[dict[str, NDArray], dict]:
+def _flatten(source: Source, part: Part, lists: str) -> tuple[dict[str, NDArray], dict]:
     """Every array of the file, and the manifest without what the writer adds."""
-    items = findings.items
-    materials = Materials(source)
-    geometry = read_geometry(source, items["geometry"], materials)
-    ground = read_ground(source, items["ground"], materials)
-    media = read_media(source, items["media"], ground and ground.height)
-    table, original_ids, hidden_ids = _read_emitters(source, findings)
-    offsets, rows = read_lists(source, media, table, original_ids, hidden_ids, lists)
+    geometry, media = part.geometry, part.media
+    ground = only_ground(part.grounds)
+    settle_media(media, source.notes, ground and ground.height)
+    table = emitters.ordered(part.__dict__.pop("emitters"))
+    original_ids = table.id.copy()
+    emitters.number_uniquely(table, source.notes)
+    offsets, rows = read_lists(source.notes, media, table, original_ids, part.hidden_ids, lists)
     origin = scene_origin(geometry, table, media)
     arrays, owners = geometry_records(geometry, origin, source.notes)
-    arrays["building"] = building_records(findings.building_ids, owners, table)
-    arrays["material"], arrays["texel"] = materials.records()
+    arrays["building"] = building_records(part.building_ids, owners, table)
+    arrays["material"], arrays["texel"] = part.materials.records()
     arrays["window"] = window_records(table, origin)
     arrays["window_event"] = event_records(table)
     arrays["media_box"], arrays["light_list"] = media_records(media, offsets, rows, origin)
-    cameras, arrays["camera_frame"] = read_cameras(source, items["camera"], origin)
+    cameras, arrays["camera_frame"] = camera_records(part.cameras, source.frames[0], origin)
     render = read_render_settings(source, cameras)
     _note_what_is_missing(source, arrays)
     manifest = {
@@ -133,23 +127,6 @@ def _flatten(source: Source, findings: Findings, lists: str) -> tuple[dict[str, 
         "notes": source.notes.sentences(),
     }
     return arrays, manifest
-
-
-def _read_emitters(
-    source: Source, findings: Findings
-) -> tuple[EmitterTable, NDArray[np.int64], NDArray[np.int64]]:
-    """Windows and lights in the order of the file, the ids (N,) that the stage gave them, and
-    the ids of windows that no frame shows."""
-    windows, window_paths, hidden_ids = read_windows(
-        source, findings.items["windows"], findings.hidden_windows
-    )
-    lights, light_paths = read_lights(source, findings.items["light"])
-    table = emitters.joined(windows + lights, window_paths + light_paths)
-    emitters.check(table)
-    table = emitters.ordered(table)
-    original_ids = table.id.copy()
-    emitters.number_uniquely(table, source.notes)
-    return table, original_ids, hidden_ids
 
 
 def _note_what_is_missing(source: Source, arrays: dict[str, NDArray]) -> None:

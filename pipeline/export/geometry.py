@@ -60,6 +60,33 @@ def read_geometry(source: Source, items: Sequence[Item], materials: Materials) -
     return parts.joined()
 
 
+def joined_geometry(
+    parts: Sequence[Geometry], materials: Sequence[NDArray[np.int64]], buildings: Sequence[int]
+) -> Geometry:
+    """One after the other. materials[i]: what part i's materials have become. buildings[i]: the
+    number that its buildings count from."""
+    vertices = np.cumsum([0] + [len(part.positions) for part in parts])
+    textured = any(part.texcoords is not None for part in parts)
+    return Geometry(
+        np.concatenate([part.positions for part in parts]),
+        np.concatenate([_texcoords(part) for part in parts]) if textured else None,
+        np.concatenate([p.vertices + first for p, first in zip(parts, vertices, strict=False)]),
+        np.concatenate([now[p.materials] for p, now in zip(parts, materials, strict=True)]),
+        np.concatenate(
+            [
+                np.where(part.buildings < 0, -1, part.buildings + first)
+                for part, first in zip(parts, buildings, strict=False)
+            ]
+        ),
+    )
+
+
+def _texcoords(geometry: Geometry) -> NDArray[np.float32]:
+    if geometry.texcoords is not None:
+        return geometry.texcoords
+    return np.zeros((len(geometry.positions), 2), np.float32)
+
+
 def face_materials(
     source: Source,
     prim: Usd.Prim,

@@ -21,22 +21,35 @@ _FLAT = 1e-3  # m; twice float32's rounding at 8 km
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """height: m, on the stage. material: into the table of materials."""
+    """height: m, on the stage. material: into the table of materials. path: of the prim."""
 
     height: float
     material: int
+    path: str
 
 
-def read_ground(source: Source, items: Sequence[Item], materials: Materials) -> Ground | None:
-    """The one ground, or None. Raises SceneError where it is not horizontal or there are two."""
-    if not items:
-        return None
-    if len(items) > 1 or len(items[0].matrices) > 1:
-        paths = " and ".join(str(item.prim.GetPath()) for item in items[:2])
+def read_grounds(source: Source, items: Sequence[Item], materials: Materials) -> list[Ground]:
+    """The ground, if any. Raises SceneError where it is not horizontal or there are two."""
+    paths = [str(item.prim.GetPath()) for item in items for _ in range(len(item.matrices))]
+    _refuse_second(paths)
+    return [_read(source, item, materials) for item in items]
+
+
+def only_ground(grounds: Sequence[Ground]) -> Ground | None:
+    """The ground out of those of all parts. Raises SceneError where there are two."""
+    _refuse_second([ground.path for ground in grounds])
+    return grounds[0] if grounds else None
+
+
+def _refuse_second(paths: Sequence[str]) -> None:
+    if len(paths) > 1:
         raise SceneError(
-            f"{paths}: a scene has one ground; remove NightcityGroundAPI from the others"
+            f"{' and '.join(paths[:2])}: a scene has one ground; remove NightcityGroundAPI from the"
+            " others"
         )
-    item = items[0]
+
+
+def _read(source: Source, item: Item, materials: Materials) -> Ground:
     subsets, surfaces = surfaces_of(item.prim, materials)
     mesh = read_mesh(source, item.prim, None)
     if mesh is None or len(mesh.faces) == 0:
@@ -50,4 +63,4 @@ def read_ground(source: Source, items: Sequence[Item], materials: Materials) -> 
         )
     faces = face_materials(source, item.prim, mesh.face_count, subsets, surfaces, materials)
     material = materials.untextured(int(faces[mesh.faces[0]]), item.prim.GetPath())
-    return Ground(float(np.median(heights)), material)
+    return Ground(float(np.median(heights)), material, str(item.prim.GetPath()))

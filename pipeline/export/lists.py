@@ -10,17 +10,15 @@ from numpy.typing import NDArray
 from nightcity.errors import SceneError
 from nightcity.export.emitters import EmitterTable
 from nightcity.export.media import Media
-from nightcity.export.notes import named
-from nightcity.export.open_stage import Source
+from nightcity.export.notes import Notes, named
 from nightcity.light_lists import light_lists, window_bounds
-from nightcity.progress import Progress
 
 IntArray = NDArray[np.int64]
 _ABSENT, _HIDDEN = -1, -2  # what an id that lights nothing stands for
 
 
 def read_lists(
-    source: Source,
+    notes: Notes,
     media: Media,
     table: EmitterTable,
     original_ids: IntArray,
@@ -35,7 +33,7 @@ def read_lists(
     """
     offsets, rows = _from_geometry(media, table)
     box = np.repeat(np.arange(len(media)), np.diff(offsets))
-    authored_box, ids, stated = _authored(media)
+    authored_box, ids = media.listed_box, media.listed_id
     meaning = _Meaning(table, original_ids, hidden_ids)
     authored_row = meaning.rows(ids)
     if choice == "authored":
@@ -49,7 +47,7 @@ def read_lists(
         )
         counts = np.bincount(pairs[0], minlength=len(media))
         return np.concatenate([[0], np.cumsum(counts)]), pairs[1]
-    _report_stale(source, media, table, (box, rows), (authored_box, authored_row), stated)
+    _report_stale(notes, media, table, (box, rows), (authored_box, authored_row))
     return offsets, rows
 
 
@@ -59,22 +57,6 @@ def _from_geometry(media: Media, table: EmitterTable) -> tuple[IntArray, IntArra
     lo = np.where(table.sphere[:, None], table.centre - reach, lo)
     hi = np.where(table.sphere[:, None], table.centre + reach, hi)
     return light_lists(lo, hi, media.lo, media.hi, media.reach_scale)
-
-
-def _authored(media: Media) -> tuple[IntArray, IntArray, NDArray[np.bool_]]:
-    """Box and id of every entry of windowLights, and which boxes state a list at all (M,)."""
-    stated = np.zeros(len(media), dtype=bool)
-    lists = []
-    with Progress("reading light lists", len(media)) as progress:
-        for row in range(len(media)):
-            prim = media.items[media.owner[row]].prim
-            attribute = prim.GetAttribute("nightcity:windowLights")
-            values = attribute.Get()
-            stated[row] = attribute.HasAuthoredValue()
-            lists.append(np.array(values if values is not None else [], dtype=np.int64))
-            progress.advance()
-    box = np.repeat(np.arange(len(media)), [len(ids) for ids in lists])
-    return box, np.concatenate([np.empty(0, np.int64), *lists]), stated
 
 
 class _Meaning:
@@ -119,12 +101,11 @@ def _ascending(keys: IntArray) -> IntArray:
 
 
 def _report_stale(
-    source: Source,
+    notes: Notes,
     media: Media,
     table: EmitterTable,
     fresh: tuple[IntArray, IntArray],
     authored: tuple[IntArray, IntArray],
-    stated: NDArray[np.bool_],
 ) -> None:
     """Say which authored lists the recomputed ones replace. Hidden windows make no list stale;
     the stage's own lights cannot be listed; instances of a box have no list of their own."""
@@ -134,15 +115,17 @@ def _report_stale(
     width = len(table) + 1  # one more for absent windows
     ours = box * width + row
     theirs = _ascending(authored[0][known] * width + authored[1][known] % width)
+    if np.array_equal(ours, theirs) and media.stated.all():
+        return
     differs = np.zeros(len(media), dtype=bool)
     differs[np.setxor1d(ours, theirs, assume_unique=True) // width] = True
     for rows, what in (
-        (np.flatnonzero(differs & stated & media.first_copy), "no longer fit the geometry"),
-        (np.flatnonzero(differs & ~stated), "are missing"),
+        (np.flatnonzero(differs & media.stated & media.first_copy), "no longer fit the geometry"),
+        (np.flatnonzero(differs & ~media.stated), "are missing"),
     ):
         if len(rows):
             paths = named([media.path(row) for row in rows])
-            source.notes.say(
+            notes.say(
                 f"The light lists of {len(rows)} of {len(media)} media boxes {what} and were"
                 f" recomputed: {paths}"
             )

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from nightcity.export.textures import linear_from_srgb, read_texels
 GREY = (0.5, 0.5, 0.5)
 _UNAUTHORED_DIFFUSE = (0.18, 0.18, 0.18)  # UsdPreviewSurface's own default
 Colour = tuple[float, float, float]
+TextureKey = tuple[str, str]  # resolved path, colour space
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,16 +29,50 @@ class Surface:
     primvar: str | None = None
 
 
+@dataclass
+class MaterialTable:
+    """Every material that a surface uses, once: its reflectance and the key of its texture.
+
+    rows: each with its index. textures: (height, width, 4) uint8 by resolved path and colour
+    space, in the order of the file.
+    """
+
+    rows: dict[tuple[Colour, TextureKey | None], int] = field(default_factory=dict)
+    textures: dict[TextureKey, NDArray[np.uint8]] = field(default_factory=dict)
+
+    def row(self, colour: Colour, texture: TextureKey | None) -> int:
+        """The index of a material, new or not."""
+        return self.rows.setdefault((colour, texture), len(self.rows))
+
+    def take_in(self, other: MaterialTable) -> NDArray[np.int64]:
+        """Add another table; (rows of the other,) where each of them is now."""
+        for key, texels in other.textures.items():
+            self.textures.setdefault(key, texels)
+        return np.array([self.row(*row) for row in other.rows], dtype=np.int64)
+
+    def records(self) -> tuple[NDArray, NDArray]:
+        """The arrays ``material`` and ``texel``."""
+        places: dict[TextureKey | None, tuple[int, int, int]] = {None: (NONE, 0, 0)}
+        count = 0
+        for key, texels in self.textures.items():
+            places[key] = count, texels.shape[1], texels.shape[0]
+            count += places[key][1] * places[key][2]
+        materials = np.zeros(len(self.rows), RECORDS["material"])
+        for (reflectance, texture), row in self.rows.items():
+            materials[row] = reflectance, *places[texture]
+        texel = np.zeros(count, RECORDS["texel"])
+        if self.textures:
+            texel["rgba"] = np.concatenate([t.reshape(-1, 4) for t in self.textures.values()])
+        return materials, texel
+
+
 class Materials:
-    """The table of materials: every one that a surface uses, once."""
+    """Reads the materials of a stage into a table."""
 
     def __init__(self, source: Source) -> None:
         self._source = source
-        self._rows: dict[tuple, int] = {}
         self._surfaces: dict[str, Surface | None] = {}
-        self._textures: dict[tuple[str, str], tuple[int, int, int]] = {}
-        self._texels: list[NDArray[np.uint8]] = []
-        self._texel_count = 0
+        self.table = MaterialTable()
 
     def of_material(self, material: UsdShade.Material) -> Surface | None:
         """The surface of a bound material; None, with a note, where it is no preview surface."""
@@ -50,7 +85,7 @@ class Materials:
 
     def of_colour(self, colour: Colour, where: object) -> Surface:
         """A plain surface."""
-        return Surface(self._row(colour, (NONE, 0, 0), where))
+        return Surface(self._row(colour, None, where))
 
     def of_display_colour(self, prim: Usd.Prim, face_count: int) -> list[tuple[Surface, object]]:
         """What a prim without material shows: surfaces, each with its faces (None: all)."""
@@ -76,31 +111,21 @@ class Materials:
 
     def untextured(self, index: int, where: object) -> int:
         """The material itself, or one of its texture's mean colour, with a note."""
-        reflectance, first, width, height = list(self._rows)[index]
-        if first == NONE:
+        reflectance, texture = list(self.table.rows)[index]
+        if texture is None:
             return index
         self._source.notes.about("A textured ground is taken as its texture's mean", where)
-        texels = np.concatenate(self._texels)[first : first + width * height, :3]
+        texels = self.table.textures[texture].reshape(-1, 4)[:, :3]
         mean = linear_from_srgb(texels / 255.0).mean(axis=0)
-        return self._row(tuple((mean * reflectance).tolist()), (NONE, 0, 0), where)
+        return self._row(tuple((mean * reflectance).tolist()), None, where)
 
-    def records(self) -> tuple[NDArray, NDArray]:
-        """The arrays ``material`` and ``texel``."""
-        materials = np.zeros(len(self._rows), RECORDS["material"])
-        for (reflectance, first, width, height), row in self._rows.items():
-            materials[row] = reflectance, first, width, height
-        texels = np.zeros(self._texel_count, RECORDS["texel"])
-        if self._texels:
-            texels["rgba"] = np.concatenate(self._texels)
-        return materials, texels
-
-    def _row(self, colour: Colour, texture: tuple[int, int, int], where: object) -> int:
+    def _row(self, colour: Colour, texture: TextureKey | None, where: object) -> int:
         if not np.isfinite(colour).all():
             raise SceneError(f"{where}: its colour {colour} is not finite")
         clipped = tuple(min(max(float(np.float32(c)), 0.0), 1.0) for c in colour)
         if not np.allclose(clipped, colour, rtol=0, atol=1e-6):
             self._source.notes.about("Reflectances outside 0 to 1 are clipped", where)
-        return self._rows.setdefault((clipped, *texture), len(self._rows))
+        return self.table.row(clipped, texture)
 
     def _read(self, material: UsdShade.Material) -> Surface | None:
         path, notes = material.GetPath(), self._source.notes
@@ -111,7 +136,7 @@ class Materials:
         self._note_what_is_lost(shader, path)
         value, texture = self._producer(shader.GetInput("diffuseColor"))
         if texture is None:
-            return Surface(self._row(value or _UNAUTHORED_DIFFUSE, (NONE, 0, 0), path))
+            return Surface(self._row(value or _UNAUTHORED_DIFFUSE, None, path))
         return self._textured(texture, path)
 
     def _note_what_is_lost(self, shader: UsdShade.Shader, path: Sdf.Path) -> None:
@@ -158,18 +183,11 @@ class Materials:
         row = self._row(tuple(scale)[:3], placed, path)
         return Surface(row, self._primvar(texture))
 
-    def _place_texture(
-        self, asset: Sdf.AssetPath, space: str, path: Sdf.Path
-    ) -> tuple[int, int, int]:
-        """First texel, width, height."""
+    def _place_texture(self, asset: Sdf.AssetPath, space: str, path: Sdf.Path) -> TextureKey:
         key = (asset.resolvedPath, space)
-        if not asset.resolvedPath or key not in self._textures:
-            texels = read_texels(asset, space, str(path))
-            height, width = texels.shape[:2]
-            self._textures[key] = (self._texel_count, width, height)
-            self._texels.append(texels.reshape(-1, 4))
-            self._texel_count += width * height
-        return self._textures[key]
+        if not asset.resolvedPath or key not in self.table.textures:
+            self.table.textures[key] = read_texels(asset, space, str(path))
+        return key
 
     def _primvar(self, texture: UsdShade.Shader) -> str:
         """Name of the texture coordinates: what the primvar reader asks for, usually st."""

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 from nightcity.box_overlaps import box_overlaps
 from nightcity.errors import SceneError
 from nightcity.export.findings import Item
+from nightcity.export.notes import Notes
 from nightcity.export.open_stage import Source
 from nightcity.progress import Progress
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 # m. Faces closer than this are one face: the renderer wants those that touch equal to the bit.
 SNAP = 1e-4
@@ -25,11 +27,13 @@ _NUMBERS = ("size", "nightcity:extinction", "nightcity:albedo", "nightcity:reach
 
 @dataclass
 class Media:
-    """One row a box.
+    """One row a box; one entry a window that a stage lists for a box.
 
-    lo, hi: (M, 3) m, on the stage, touching faces equal. extinction: (M,) 1/m. albedo: (M,).
-    reach_scale: (M,). id: (M,). owner: (M,) into items. first_copy: (M,) whether the row is the
-    prim itself rather than a further instance of it.
+    lo, hi: (M, 3) m, on the stage. extinction: (M,) 1/m. albedo: (M,). reach_scale: (M,).
+    id: (M,). owner: (M,) into paths. first_copy: (M,) whether the row is the prim itself rather
+    than a further instance of it. paths: of the prims. source_paths: those that every native
+    instance of the same prim shares. listed_box, listed_id: (L,) ``windowLights``, by row.
+    stated: (M,) whether that is authored.
     """
 
     lo: FloatArray
@@ -37,31 +41,44 @@ class Media:
     extinction: FloatArray
     albedo: FloatArray
     reach_scale: FloatArray
-    id: NDArray[np.int64]
-    owner: NDArray[np.int64]
+    id: IntArray
+    owner: IntArray
     first_copy: NDArray[np.bool_]
-    items: Sequence[Item]
+    listed_box: IntArray
+    listed_id: IntArray
+    stated: NDArray[np.bool_]
+    paths: list[str]
+    source_paths: list[str]
 
     def __len__(self) -> int:
         return len(self.id)
 
     def path(self, row: int) -> str:
-        return str(self.items[self.owner[row]].prim.GetPath())
+        return self.paths[self.owner[row]]
 
 
-def read_media(source: Source, items: Sequence[Item], ground: float | None = None) -> Media:
-    """Every media box; one that stands on the ground, at height ``ground`` (m), starts there to
-    the bit, as the renderer expects.
+_ROWS = tuple(
+    f.name
+    for f in fields(Media)
+    if f.name not in ("listed_box", "listed_id", "paths", "source_paths")
+)
 
-    Raises SceneError naming the prim of a box that is rotated, flat, out of range, numbered like
-    another or overlaps one.
+
+def read_media(source: Source, items: Sequence[Item]) -> Media:
+    """Every media box, where it stands on the stage.
+
+    Raises SceneError naming the prim of a box that is rotated, flat or out of range.
     """
     numbers = np.empty((len(items), len(_NUMBERS)))
     ids = np.empty(len(items), dtype=np.int64)
+    stated, lists = np.zeros(len(items), dtype=bool), []
     with Progress("reading media boxes", len(items)) as progress:
         for row, item in enumerate(items):
             numbers[row] = [source.value(item.prim, name) for name in _NUMBERS]
             ids[row] = source.value(item.prim, "nightcity:mediaId")
+            listed = item.prim.GetAttribute("nightcity:windowLights")
+            values, stated[row] = listed.Get(), listed.HasAuthoredValue()
+            lists.append(np.array(values if values is not None else [], dtype=np.int64))
             progress.advance()
     copies = np.array([len(item.matrices) for item in items], dtype=np.int64)
     owner = np.repeat(np.arange(len(items)), copies)
@@ -70,18 +87,50 @@ def read_media(source: Source, items: Sequence[Item], ground: float | None = Non
     first_copy = np.zeros(len(owner), dtype=bool)
     if len(owner):
         first_copy[np.cumsum(copies) - copies] = True
+    lengths = [len(lists[index]) for index in owner]
     media = Media(
         np.empty((len(owner), 3)), np.empty((len(owner), 3)),
-        extinction, albedo, reach_scale, ids[owner], owner, first_copy, items,
+        extinction, albedo, reach_scale, ids[owner], owner, first_copy,
+        np.repeat(np.arange(len(owner)), lengths),
+        np.concatenate([np.empty(0, np.int64), *(lists[index] for index in owner)]),
+        stated[owner],
+        [str(item.prim.GetPath()) for item in items],
+        [item.source_path for item in items],
     )  # fmt: skip
     _check_values(media)
     media.lo, media.hi = _corners(media, matrices, size)
+    return media
+
+
+def joined_media(parts: Sequence[Media]) -> Media:
+    """The boxes of all parts, one part after the other."""
+    columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in _ROWS}
+    rows = np.cumsum([0] + [len(part) for part in parts])
+    prims = np.cumsum([0] + [len(part.paths) for part in parts])
+    columns["owner"] = columns["owner"] + np.repeat(prims[:-1], np.diff(rows))
+    return Media(
+        **columns,
+        listed_box=np.concatenate(
+            [p.listed_box + r for p, r in zip(parts, rows[:-1], strict=True)]
+        ),
+        listed_id=np.concatenate([part.listed_id for part in parts]),
+        paths=[path for part in parts for path in part.paths],
+        source_paths=[path for part in parts for path in part.source_paths],
+    )
+
+
+def settle_media(media: Media, notes: Notes, ground: float | None = None) -> None:
+    """Make faces that touch equal, number the copies, and refuse boxes that overlap.
+
+    A box that stands on the ground, at height ``ground`` (m), starts there to the bit, as the
+    renderer expects. Raises SceneError naming two boxes that have one number or overlap.
+    """
+    media.lo, media.hi = snapped(media.lo, media.hi)
     if ground is not None:
         for corners in (media.lo, media.hi):
             corners[np.abs(corners[:, 2] - ground) < SNAP, 2] = ground
-    _number(source, media)
+    _number(notes, media)
     _check_overlap(media)
-    return media
 
 
 def _check_values(media: Media) -> None:
@@ -101,7 +150,7 @@ def _check_values(media: Media) -> None:
 
 
 def _corners(media: Media, matrices: FloatArray, size: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Lower and upper corners, (M, 3), snapped."""
+    """Lower and upper corners, (M, 3)."""
     edges = matrices[:, :3, :3] * size[:, None, None]  # rows: the box's three edges
     along = np.argmax(np.abs(edges), axis=2)
     longest = np.take_along_axis(np.abs(edges), along[:, :, None], axis=2)[:, :, 0]
@@ -119,7 +168,7 @@ def _corners(media: Media, matrices: FloatArray, size: FloatArray) -> tuple[Floa
     half = np.zeros((len(size), 3))
     np.put_along_axis(half, along, 0.5 * longest, axis=1)
     centre = matrices[:, 3, :3]
-    return snapped(centre - half, centre + half)
+    return centre - half, centre + half
 
 
 def snapped(lo: FloatArray, hi: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -147,11 +196,11 @@ def _plane_of(values: FloatArray, tally: NDArray[np.int64]) -> FloatArray:
     return planes
 
 
-def _number(source: Source, media: Media) -> None:
+def _number(notes: Notes, media: Media) -> None:
     """Instances get numbers of their own; two prims with one number are an error."""
     sources: dict[str, int] = {}
     for row in range(len(media)):
-        path = media.items[media.owner[row]].source_path
+        path = media.source_paths[media.owner[row]]
         media.first_copy[row] &= sources.setdefault(path, row) == row
     fresh = np.flatnonzero(~media.first_copy)
     own = np.flatnonzero(media.first_copy)
@@ -170,7 +219,7 @@ def _number(source: Source, media: Media) -> None:
             new = np.setdiff1d(np.arange(len(media)), media.id[own])[: len(fresh)]
         media.id[fresh] = new
         for row in fresh:
-            source.notes.about("Instances of a media box have got new mediaIds", media.path(row))
+            notes.about("Instances of a media box have got new mediaIds", media.path(row))
 
 
 def _check_overlap(media: Media) -> None:

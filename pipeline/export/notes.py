@@ -21,6 +21,11 @@ class Notes:
         """Add ``prim`` (a path) to those that ``sentence`` is true of."""
         self._prims.setdefault(sentence, {})[str(prim)] = None
 
+    def take_in(self, other: Notes) -> None:
+        """Add the notes of another part of the same stage."""
+        for sentence, prims in other._prims.items():
+            self._prims.setdefault(sentence, {}).update(prims)
+
     def sentences(self) -> list[str]:
         """Every note, ended by the prims it is about."""
         return [_ended(sentence, list(prims)) for sentence, prims in self._prims.items()]

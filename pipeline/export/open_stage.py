@@ -4,14 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+import contextlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
 from math import ceil, floor, isfinite
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, Tf, Usd, UsdGeom
+from pxr import Gf, Sdf, Tf, Usd, UsdGeom
 
 from nightcity import schemas
 from nightcity.errors import SceneError, UsageError
@@ -26,6 +27,7 @@ class Source:
 
     frames: first and last, USD time codes; attributes are read at the first unless they are
     followed over time. root: (4, 4), from the stage's space to metres with z up, for row vectors.
+    districts: paths of the districts, which are not loaded; empty where everything is.
     """
 
     stage: Usd.Stage
@@ -33,6 +35,7 @@ class Source:
     frames_per_second: float
     root: NDArray[np.float64]
     knows_frames: bool = True
+    districts: tuple[str, ...] = ()
     notes: Notes = field(default_factory=Notes)
     time: Usd.TimeCode = field(init=False)  # the first frame
     still: bool = field(init=False)  # nothing can vary within the frames
@@ -81,7 +84,7 @@ class Source:
 
 
 def open_stage(path: Path, frames: tuple[int, int] | None = None) -> Source:
-    """Open a stage with all its payloads.
+    """Open a stage with all its payloads but those of districts, where there are several.
 
     frames: first and last to export; by default the stage's own time codes, or frame 1.
     Raises SceneError where the file or anything that it refers to cannot be read.
@@ -90,14 +93,12 @@ def open_stage(path: Path, frames: tuple[int, int] | None = None) -> Source:
     if not path.is_file():
         raise SceneError(f"{path}: there is no such stage file")
     try:
-        stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
+        stage = Usd.Stage.Open(str(path), Usd.Stage.LoadNone)
+        districts = _districts(stage)
+        stage.LoadAndUnload(_outside(stage, districts), [])
     except Tf.ErrorException as error:
         raise SceneError(f"{path}: USD cannot open it: {_first_line(error)}") from error
-    errors = stage.GetCompositionErrors()
-    if errors:
-        shown = "; ".join(str(error).strip().replace("\n", " ") for error in errors[:_SHOWN_ERRORS])
-        more = f"; and {len(errors) - _SHOWN_ERRORS} more" if len(errors) > _SHOWN_ERRORS else ""
-        raise SceneError(f"{path}: parts of the stage are missing or broken: {shown}{more}")
+    refuse_broken(stage)
     notes = Notes()
     return Source(
         stage,
@@ -105,8 +106,53 @@ def open_stage(path: Path, frames: tuple[int, int] | None = None) -> Source:
         _frames_per_second(stage, path),
         _root(stage, path, notes),
         knows_frames=frames is not None or stage.HasAuthoredTimeCodeRange(),
+        districts=tuple(districts),
         notes=notes,
     )
+
+
+@contextlib.contextmanager
+def loaded_district(source: Source, district: str) -> Iterator[Source]:
+    """The stage with one district loaded, and notes of its own.
+
+    Raises SceneError where the district refers to what is not there.
+    """
+    source.stage.Load(district)
+    try:
+        refuse_broken(source.stage)
+        yield replace(source, notes=Notes())
+    finally:
+        source.stage.Unload(district)
+
+
+def refuse_broken(stage: Usd.Stage) -> None:
+    """Raises SceneError naming what does not compose."""
+    errors = stage.GetCompositionErrors()
+    if errors:
+        path = stage.GetRootLayer().realPath
+        shown = "; ".join(str(error).strip().replace("\n", " ") for error in errors[:_SHOWN_ERRORS])
+        more = f"; and {len(errors) - _SHOWN_ERRORS} more" if len(errors) > _SHOWN_ERRORS else ""
+        raise SceneError(f"{path}: parts of the stage are missing or broken: {shown}{more}")
+
+
+def _districts(stage: Usd.Stage) -> list[str]:
+    """Paths of the payloads that can be read one at a time, if there are several."""
+    found = [
+        str(prim.GetPath())
+        for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.PrimIsActive & Usd.PrimIsDefined)
+        if not prim.IsLoaded() and "NightcityDistrictAPI" in prim.GetAppliedSchemas()
+    ]
+    return found if len(found) > 1 else []
+
+
+def _outside(stage: Usd.Stage, districts: list[str]) -> list[Sdf.Path]:
+    """The payloads that belong to no district."""
+    inside = set(map(Sdf.Path, districts))
+    return [
+        path
+        for path in stage.FindLoadable()
+        if not any(prefix in inside for prefix in path.GetPrefixes())
+    ]
 
 
 def _first_line(error: Tf.ErrorException) -> str:

@@ -42,13 +42,14 @@ class _Place:
     moving: str | None = None  # the highest ancestor that moves
 
 
-def walk(source: Source) -> Findings:
-    """Find everything that is exported. Raises SceneError for a schema on the wrong type of prim
-    and for transforms that are not finite."""
-    top = source.stage.GetPseudoRoot()
+def walk(source: Source, district: str | None = None) -> Findings:
+    """Find everything that is exported: all that is loaded, or one district of it. Raises
+    SceneError for a schema on the wrong type of prim and for transforms that are not finite."""
+    top = source.stage.GetPrimAtPath(district or "/")
     total = sum(1 for _ in Usd.PrimRange(top, _CHILDREN))
     with Progress("reading the stage", total) as progress:
-        return _Walker(source, source.root, _CHILDREN, (), progress).below(top)
+        walker = _Walker(source, source.root, _CHILDREN, (), progress)
+        return walker.at(top) if district else walker.below(top)
 
 
 class _Walker:
@@ -74,8 +75,14 @@ class _Walker:
         return self._run([(child, _Place(self._root)) for child in self._reversed(top)])
 
     def at(self, top: Usd.Prim) -> Findings:
-        """``top``, its own transform included, and everything below it."""
-        return self._run([(top, _Place(self._root))])
+        """``top``, its own transform and what it inherits included, and everything below it."""
+        place = _Place(self._root)
+        if not self._prototypes:
+            for path in top.GetPath().GetParentPath().GetPrefixes():
+                ancestor = top.GetStage().GetPrimAtPath(path)
+                if self._kind(ancestor) != "other":
+                    place = self._place(ancestor, place)
+        return self._run([(top, place)])
 
     def _run(self, stack: list[tuple[Usd.Prim, _Place]]) -> Findings:
         while stack:
