@@ -20,7 +20,7 @@ public:
     Frame render(const RenderProduct& product, const ProgressCallback& progress) override {
         if (syncedFrame_ != product.frame) {
             const SceneChanges changes{.geometry = !syncedFrame_, .windowState = true};
-            delegate_->sync(scene_, product.frame, settings_, changes);
+            delegate_->sync(scene_, product.camera, product.frame, settings_, changes);
             syncedFrame_ = product.frame;
         }
         delegate_->render(product, settings_, progress);

@@ -22,8 +22,11 @@ constexpr std::uint64_t kMostPixels = 1u << 30;  // pixel numbers are 32 bits on
 // On the paper's city the far field is then within 1 % on 95 of 100 pixels.
 constexpr float kFarSpacing = 0.7f;  // m
 
-FarFieldSettings farFieldSettings(const RenderSettings& settings) {
+FarFieldSettings farFieldSettings(const RenderSettings& settings, const CameraTrack& camera) {
     FarFieldSettings far;
+    for (const CameraFrame& frame : camera.frames) {
+        far.eyes.push_back(frame.position);
+    }
     far.emitter = settings.model.emitter;
     far.visibility = settings.model.visibility;
     far.spacing = kFarSpacing;
@@ -51,8 +54,8 @@ public:
         instance_.throwIfMessages();
     }
 
-    void sync(const FlatScene& scene, int frame, const RenderSettings& settings,
-              const SceneChanges& changes) override {
+    void sync(const FlatScene& scene, const std::string& camera, int frame,
+              const RenderSettings& settings, const SceneChanges& changes) override {
         const auto start = std::chrono::steady_clock::now();
         const bool all = flatScene_ != &scene;
         flatScene_ = nullptr;  // until all of it is on the device
@@ -61,7 +64,8 @@ public:
         }
         scene_.syncWindowState(scene, frame, settings);
         if (settings.method == Method::field) {
-            scene_.syncFarField(scene, scene.windowsOn(frame), farFieldSettings(settings));
+            scene_.syncFarField(scene, scene.windowsOn(frame), 
+                                farFieldSettings(settings, scene.camera(camera)));
         }
         flatScene_ = &scene;
         renderer_.sceneChanged();

@@ -39,8 +39,9 @@ public:
     virtual ~RenderDelegate() = default;
 
     // The scene must outlive the delegate or the next sync. `settings` gives cap and storage.
-    virtual void sync(const FlatScene& scene, int frame, const RenderSettings& settings,
-                      const SceneChanges& changes) = 0;
+    // `camera` is that of the shot: where it is at any frame chooses what is baked how finely.
+    virtual void sync(const FlatScene& scene, const std::string& camera, int frame,
+                      const RenderSettings& settings, const SceneChanges& changes) = 0;
     virtual void render(const RenderProduct& product, const RenderSettings& settings,
                         const ProgressCallback& progress) = 0;
     virtual Frame resolve() = 0;                       // of the last render

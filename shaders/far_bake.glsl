@@ -23,6 +23,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Far
 #define bakeTable FarBakeReference(push.frame).table
 #define bakedField FarFieldReference(bakeTable.field).table
 
+const uint kBrickSide = kBrickSteps + 1u;  // nodes
+
 // Of the batch, and of all.
 uint groupInBatch() {
     return gl_WorkGroupID.x;
@@ -31,23 +33,13 @@ uint groupBrick() {
     return push.firstPixel + gl_WorkGroupID.x;
 }
 
-float brickSpacing(FarFieldTable field, FarBrick brick) {
-    return field.brickSide / float(kBrickCells >> brick.level);
-}
-
-uint brickNodeCount(FarBrick brick) {
-    uint side = (kBrickCells >> brick.level) + 1u;
-    return side * side * side;
-}
-
 // Of a node along each axis, from 0.
-uvec3 nodePlace(FarBrick brick, uint node) {
-    uint side = (kBrickCells >> brick.level) + 1u;
-    return uvec3(node % side, node / side % side, node / (side * side));
+uvec3 nodePlace(uint node) {
+    return uvec3(node, node / kBrickSide, node / (kBrickSide * kBrickSide)) % kBrickSide;
 }
 
-vec3 groupBrickCorner(FarFieldTable field) {
-    return brickCorner(field, ivec3(Uvec3Array(bakeTable.brickCells).at[groupBrick()]));
+uint nodeAt(uvec3 place) {
+    return (place.z * kBrickSide + place.y) * kBrickSide + place.x;
 }
 
 #endif

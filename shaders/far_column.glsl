@@ -12,13 +12,14 @@
 
 #include "far_window.glsl"
 
-const uint kColumnNodes = kBrickCells + 1u;
+const uint kColumnNodes = kBrickSide;
 const float kNearestPoint = 1e-6;  // m, from a point source: closer nodes count as so far
 const uint kAllNodes = (1u << kColumnNodes) - 1u;
 
 struct Column {
     vec3 foot;      // of node 0, from the brick's centre, m
     float spacing;  // m
+    float halfSide; // m, of the brick
     vec3 hazeLo, hazeHi;  // of the brick's first medium, from its centre, m
     bool oneHaze;         // in all of the brick
 };
@@ -207,8 +208,8 @@ float seenThroughMany(Hidden hidden, FarWindow window, vec3 place, uint i, vec3 
 }
 
 // A window that is far enough to be a point with a second-order term, with all faces listed.
-bool isQuick(FarWindow window, Column column, FarFieldTable field) {
-    vec3 gap = max(abs(window.centre) - 0.5 * field.brickSide, vec3(0.0));
+bool isQuick(FarWindow window, Column column) {
+    vec3 gap = max(abs(window.centre) - column.halfSide, vec3(0.0));
     return window.faceCount != kManyFaces && !window.isSphere &&
            (window.extinction >= 0.0 || column.oneHaze) &&
            (kFarEmitter != kEmitterPane || dot(gap, gap) > window.exactBelow);

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads the far part of the fluence. A ray walks the lattice brick by brick (a brick
-// that is kNone holds no haze), clips its part of each to the media of the brick, and samples
-// between:
+// Reads the far part of the fluence. A ray walks the lattice, from brick to brick where there
+// are any (where the index is kNone is no haze), clips its part of each to the media of
+// the brick, and samples between:
 //
 //     FarFieldTable field = farFieldTable;
 //     uint index = brickAt(field, cell);
 //     FarBrick brick = FarBrickArray(field.bricks).at[index];
-//     vec3 fluence = farFluence(field, brick, (x - brickCorner(field, cell)) / field.brickSide);
+//     vec3 place = (x - brickCorner(field, brick)) / brickSide(field, brick);
+//     vec3 fluence = farFluence(field, index, place);
 #ifndef NIGHTCITY_SHADERS_FAR_FIELD_GLSL
 #define NIGHTCITY_SHADERS_FAR_FIELD_GLSL
 
@@ -27,14 +28,28 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FarNodeArray
 
 #define farFieldTable FarFieldReference(sceneTable.farField).table
 
-// Lower corner of a lattice cell, m.
-vec3 brickCorner(FarFieldTable field, ivec3 cell) {
-    return field.origin + vec3(cell) * field.brickSide;
+// m.
+float brickSide(FarFieldTable field, FarBrick brick) {
+    return field.cellSide * float(1u << brick.scale);
+}
+
+// m, from node to node.
+float brickSpacing(FarFieldTable field, FarBrick brick) {
+    return brickSide(field, brick) / float(kBrickSteps);
+}
+
+// Lower corner, m.
+vec3 brickCorner(FarFieldTable field, FarBrick brick) {
+    return field.origin + vec3(brick.cell) * field.cellSide;
+}
+
+bool isInBrick(ivec3 cell, FarBrick brick) {
+    return all(equal(cell >> brick.scale, ivec3(brick.cell) >> brick.scale));
 }
 
 // Into the bricks; kNone outside the lattice and where there is no haze.
 uint brickAt(FarFieldTable field, ivec3 cell) {
-    ivec3 counts = ivec3(field.brickCounts);
+    ivec3 counts = ivec3(field.cellCounts);
     if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, counts))) {
         return kNone;
     }
@@ -49,14 +64,13 @@ vec3 farNode(FarFieldTable field, uint node) {
 
 // W m^-2 at a place of the brick, from (0, 0, 0) at its lower corner to (1, 1, 1): trilinear.
 // Times scattering / (4 pi) it is the source of in-scattered radiance.
-vec3 farFluence(FarFieldTable field, FarBrick brick, vec3 place) {
-    uint cells = kBrickCells >> brick.level;
-    uint side = cells + 1u;
-    vec3 grid = clamp(place, vec3(0.0), vec3(1.0)) * float(cells);
-    vec3 corner = min(floor(grid), vec3(float(cells) - 1.0));
+vec3 farFluence(FarFieldTable field, uint brick, vec3 place) {
+    const uint side = kBrickSteps + 1u;
+    vec3 grid = clamp(place, vec3(0.0), vec3(1.0)) * float(kBrickSteps);
+    vec3 corner = min(floor(grid), vec3(float(kBrickSteps) - 1.0));
     vec3 t = grid - corner;
     uvec3 at = uvec3(corner);
-    uint node = brick.firstNode + (at.z * side + at.y) * side + at.x;
+    uint node = brick * kBrickNodes + (at.z * side + at.y) * side + at.x;
     vec3 low = mix(mix(farNode(field, node), farNode(field, node + 1u), t.x),
                    mix(farNode(field, node + side), farNode(field, node + side + 1u), t.x), t.y);
     node += side * side;

@@ -18,21 +18,25 @@ bool isSolid(uint brick, uint node) {
             1u) != 0u;
 }
 
-// Sum of a node in the air, W m^-2; `found` is false in a solid and where no node is.
+// Sum of a node in the air, W m^-2; `found` is false in a solid and where no node is. `place`: in
+// node spacings of scale 0 from the lattice's corner.
 vec3 airNode(FarFieldTable field, ivec3 place, out bool found) {
-    ivec3 counts = ivec3(field.brickCounts);
+    ivec3 counts = ivec3(field.cellCounts);
     found = false;
     // A node on a face belongs to two bricks, on an edge to four; some may not be there.
     for (int i = 0; i < 8; ++i) {
         ivec3 back = ivec3(i, i >> 1, i >> 2) & 1;
-        ivec3 cell = (place - back) >> 3;
-        ivec3 at = place - 8 * cell;
-        uint index = brickAt(field, cell);
-        if (index != kNone && all(lessThanEqual(at, ivec3(8)))) {
-            FarBrick brick = FarBrickArray(field.bricks).at[index];
-            uint node = uint((at.z * 9 + at.y) * 9 + at.x);
+        uint index = brickAt(field, (place - back) >> 3);
+        if (index == kNone) {
+            continue;
+        }
+        FarBrick brick = FarBrickArray(field.bricks).at[index];
+        ivec3 at = place - 8 * ivec3(brick.cell);
+        ivec3 steps = at >> brick.scale;
+        if (steps << brick.scale == at && all(lessThanEqual(steps, ivec3(8)))) {
+            uint node = nodeAt(uvec3(steps));
             found = !isSolid(index, node);
-            return vec3(Uvec3Array(bakeTable.sums).at[brick.firstNode + node]) *
+            return vec3(Uvec3Array(bakeTable.sums).at[index * kBrickNodes + node]) *
                    FloatArray(bakeTable.units).at[index];
         }
     }
@@ -51,7 +55,7 @@ vec3 goingOn(FarFieldTable field, ivec3 place, ivec3 way, out bool found) {
 }
 
 // The mean over the nearest neighbours in the air: along axes, else in planes, else in space.
-vec3 fromTheAir(FarFieldTable field, ivec3 place) {
+vec3 fromTheAir(FarFieldTable field, ivec3 place, uint scale) {
     for (int axes = 1; axes <= 3; ++axes) {
         vec3 sum = vec3(0.0);
         float count = 0.0;
@@ -60,7 +64,7 @@ vec3 fromTheAir(FarFieldTable field, ivec3 place) {
             ivec3 size = abs(way);
             if (size.x + size.y + size.z == axes) {
                 bool found;
-                sum += goingOn(field, place, way, found);
+                sum += goingOn(field, place, way << scale, found);
                 count += found ? 1.0 : 0.0;
             }
         }
@@ -75,14 +79,15 @@ void main() {
     FarFieldTable field = bakedField;
     uint index = groupBrick();
     FarBrick brick = FarBrickArray(field.bricks).at[index];
-    ivec3 first = 8 * ivec3(Uvec3Array(bakeTable.brickCells).at[index]);
+    ivec3 first = 8 * ivec3(brick.cell);
+    uint firstNode = index * kBrickNodes;
     float unit = FloatArray(bakeTable.units).at[index];
-    for (uint node = gl_LocalInvocationIndex; node < brickNodeCount(brick); node += kGroupSize) {
+    for (uint node = gl_LocalInvocationIndex; node < kBrickNodes; node += kGroupSize) {
         vec3 value = isSolid(index, node)
-                         ? fromTheAir(field, first + ivec3(nodePlace(brick, node)))
-                         : vec3(Uvec3Array(bakeTable.sums).at[brick.firstNode + node]) * unit;
+                         ? fromTheAir(field, first + ivec3(nodePlace(node) << brick.scale), brick.scale)
+                         : vec3(Uvec3Array(bakeTable.sums).at[firstNode + node]) * unit;
         value = min(value / field.nodeUnit, vec3(kLargestHalf));
-        FarNodeArray(field.nodes).at[brick.firstNode + node] =
+        FarNodeArray(field.nodes).at[firstNode + node] =
             uvec2(packHalf2x16(value.xy), packHalf2x16(vec2(value.z, 0.0)));
     }
 }

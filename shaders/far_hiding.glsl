@@ -116,21 +116,20 @@ uint seenFrom(vec3 place, uint index, uint bits, vec3 brickCentre) {
 // What the corners of a brick see of a light, as FarEntry has it. Two of its windows from each,
 // others from each neighbour but the same for all bricks of a corner. For a corner in a solid the
 // others speak; where all are, the brick's centre.
-uint seenFromCorners(uint index, uvec3 cell, vec3 brickCentre, vec3 brickHalf) {
+uint seenFromCorners(uint index, FarBrick brick, vec3 brickCentre, vec3 brickHalf) {
     uint corners = 0u;
     uint sum = 0u;
     uint inAir = 0u;
     uint solid = 0u;
     for (uint c = 0u; c < 8u; ++c) {
         uvec3 offset = uvec3(c, c >> 1, c >> 2) & 1u;
-        uvec3 place = offset * kBrickCells;
-        uint node = (place.z * (kBrickCells + 1u) + place.y) * (kBrickCells + 1u) + place.x;
+        uint node = nodeAt(offset * kBrickSteps);
         uint word = UintArray(bakeTable.sides).at[groupBrick() * kBrickSideWords + (node >> 5)];
         if ((word >> (node & 31u) & 1u) != 0u) {
             solid |= 1u << c;
             continue;
         }
-        uvec3 parity = (cell + offset) & 1u;
+        uvec3 parity = ((brick.cell >> brick.scale) + offset) & 1u;
         uint bits = parity.x | parity.y << 1 | parity.z << 2;
         uint seen = seenFrom((vec3(offset) * 2.0 - 1.0) * brickHalf, index, bits, brickCentre);
         corners |= seen << (4u * c);

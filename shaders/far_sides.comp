@@ -62,17 +62,17 @@ void main() {
     uint thread = gl_LocalInvocationIndex;
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
-    vec3 corner = groupBrickCorner(field);
+    vec3 corner = brickCorner(field, brick);
     if (thread < kBrickSideWords) {
         solid[thread] = 0u;
     }
     if (thread == 0u) {
-        wholeBrick = sideOfBrick(corner, field.brickSide);
+        wholeBrick = sideOfBrick(corner, brickSide(field, brick));
     }
     barrier();
     float spacing = brickSpacing(field, brick);
-    for (uint node = thread; node < brickNodeCount(brick); node += kGroupSize) {
-        vec3 place = corner + spacing * vec3(nodePlace(brick, node));
+    for (uint node = thread; node < kBrickNodes; node += kGroupSize) {
+        vec3 place = corner + spacing * vec3(nodePlace(node));
         bool inside = wholeBrick == kUndecided ? isInSolid(place) : wholeBrick == 1u;
         if (inside) {
             atomicOr(solid[node >> 5], 1u << (node & 31u));

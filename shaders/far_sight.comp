@@ -95,9 +95,8 @@ void append(uint index, FarLight light, bool cluster, vec3 brickCentre, vec3 bri
     cluster = cluster || (entry.faceCount == kManyFaces &&
                           isCluster(light, way, brickHalf, kManyBricks * 2.0 * brickHalf.x));
     if (cluster) {
-        uvec3 cell = Uvec3Array(bakeTable.brickCells).at[groupBrick()];
         entry.faceCount = kCluster;
-        entry.face[0] = seenFromCorners(index, cell, brickCentre, brickHalf);
+        entry.face[0] = seenFromCorners(index, brick, brickCentre, brickHalf);
         if (entry.face[0] == 0u) {
             return;
         }
@@ -120,8 +119,8 @@ void main() {
     uint thread = gl_LocalInvocationIndex;
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
-    vec3 brickHalf = vec3(0.5 * field.brickSide);
-    vec3 brickCentre = groupBrickCorner(field) + brickHalf;
+    vec3 brickHalf = vec3(0.5 * brickSide(field, brick));
+    vec3 brickCentre = brickCorner(field, brick) + brickHalf;
     for (uint i = thread; i < bakeTable.rootCount; i += kGroupSize) {
         stack[i] = UintArray(bakeTable.roots).at[i];
     }

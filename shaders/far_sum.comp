@@ -12,6 +12,8 @@
 
 layout(local_size_x = kColumnThreads) in;
 
+const uint kNodesALayer = kBrickSide * kBrickSide;
+
 // W m^-2 per unit of the brick: of the new state of a window, less the old.
 uvec3 inUnits(float perWatt, vec3 emission, vec3 baked) {
     // Below 2^31: a signed conversion is one instruction where an unsigned one is many.
@@ -22,12 +24,12 @@ uvec3 inUnits(float perWatt, vec3 emission, vec3 baked) {
 void main() {
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
-    uint side = (kBrickCells >> brick.level) + 1u;
-    uint thread = min(gl_LocalInvocationIndex, side * side - 1u);
-    vec3 origin = groupBrickCorner(field) + 0.5 * field.brickSide;
+    uint thread = min(gl_LocalInvocationIndex, kNodesALayer - 1u);
     Column column;
     column.spacing = brickSpacing(field, brick);
-    column.foot = column.spacing * vec3(thread % side, thread / side, 0u) - 0.5 * field.brickSide;
+    column.halfSide = 0.5 * brickSide(field, brick);
+    column.foot = column.spacing * vec3(nodePlace(thread)) - column.halfSide;
+    vec3 origin = brickCorner(field, brick) + column.halfSide;
     FarMedium haze = MediaArray(field.media).at[UintArray(field.mediumList).at[brick.firstMedium]];
     column.hazeLo = haze.lo - origin;
     column.hazeHi = haze.hi - origin;
@@ -36,7 +38,7 @@ void main() {
     uint firstEntry = groupInBatch() * bakeTable.entryCapacity;
     uint entries = UintArray(bakeTable.entryCounts).at[groupInBatch()];
     Uvec3Array sums = Uvec3Array(bakeTable.sums);
-    uint firstNode = brick.firstNode + thread;
+    uint firstNode = groupBrick() * kBrickNodes + thread;
     bool isThere = thread == gl_LocalInvocationIndex;
 
     uvec3 sum[kColumnNodes];
@@ -60,15 +62,15 @@ void main() {
             vec3 baked = subgroupBroadcast(readBaked, e);
             if (window.faceCount == kCluster) {
                 QuickColumn quick = quickColumn(window, column, origin, field);
-                vec2 place = column.foot.xy / field.brickSide + 0.5;
+                vec2 place = 0.5 * column.foot.xy / column.halfSide + 0.5;
                 vec2 seen = seenFromCorners(window.corners, place);
                 [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-                    float share = mix(seen.x, seen.y, float(i) / float(kBrickCells));
+                    float share = mix(seen.x, seen.y, float(i) / float(kBrickSteps));
                     sum[i] += inUnits(share * quickFluence(quick, i), emission, baked);
                 }
                 continue;
             }
-            if (isQuick(window, column, field)) {
+            if (isQuick(window, column)) {
                 QuickColumn quick = quickColumn(window, column, origin, field);
                 [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
                     sum[i] +=
@@ -76,21 +78,21 @@ void main() {
                 }
                 continue;
             }
-            [[dont_unroll]] for (uint i = 0u; isThere && i < side; ++i) {
+            [[dont_unroll]] for (uint i = 0u; isThere && i < kColumnNodes; ++i) {
                 vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
                 float seen = window.faceCount == kManyFaces
                                  ? seenThroughMany(hidden, window, place, i, origin)
                                  : seenShare(hidden, i);
                 if (seen > 0.0) {
                     float perWatt = seen * farFluencePerWatt(window, origin, place, field);
-                    sums.at[firstNode + i * side * side] += inUnits(perWatt, emission, baked);
+                    sums.at[firstNode + i * kNodesALayer] += inUnits(perWatt, emission, baked);
                 }
             }
         }
     }
     [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-        if (isThere && i < side) {
-            sums.at[firstNode + i * side * side] += sum[i];
+        if (isThere) {
+            sums.at[firstNode + i * kNodesALayer] += sum[i];
         }
     }
 }

@@ -46,23 +46,34 @@ MediumPiece mediumFrom(FarFieldTable field, FarBrick brick, Ray ray, vec3 invers
     return piece;
 }
 
-vec3 farOnPiece(FarFieldTable field, FarBrick brick, vec3 corner, Ray ray, MediumPiece piece,
+vec3 farOnPiece(FarFieldTable field, uint index, FarBrick brick, Ray ray, MediumPiece piece,
                 float runBegin) {
-    float spacing = field.brickSide / float(kBrickCells >> brick.level);
+    float side = brickSide(field, brick);
+    float spacing = brickSpacing(field, brick);
     float span = piece.end - piece.begin;
     float stretches = max(ceil(span / (kFarStretch * spacing)), 1.0);
     float stretch = span / stretches;
-    vec3 origin = (ray.origin - corner) / field.brickSide;
-    vec3 direction = ray.direction / field.brickSide;
+    vec3 origin = (ray.origin - brickCorner(field, brick)) / side;
+    vec3 direction = ray.direction / side;
     vec3 sum = vec3(0.0);
     for (float k = 0.0; k < 2.0 * stretches; k += 1.0) {
         float pair = floor(0.5 * k);
         float node = k == 2.0 * pair ? kGaussOfTwo : 1.0 - kGaussOfTwo;
         float t = piece.begin + (pair + node) * stretch;
-        sum += farFluence(field, brick, origin + t * direction) *
+        sum += farFluence(field, index, origin + t * direction) *
                exp(piece.extinction * (runBegin - t));
     }
     return 0.5 * stretch * sum;
+}
+
+// Steps out of the brick, and returns where the ray leaves it, m.
+float leaveBrick(FarBrick brick, inout LatticeWalk walk) {
+    float exit;
+    do {
+        exit = cellExit(walk);
+        stepOn(walk);
+    } while (isInBrick(walk.cell, brick));
+    return exit;
 }
 
 // The next run from `at` on; `walk` and `at` go on to where it ends. False where there is none
@@ -72,15 +83,18 @@ bool nextRun(FarFieldTable field, Lattice lattice, Ray ray, vec3 inverse, float 
     run = HazeRun(0.0, 0.0, 0.0, 0.0, vec3(0.0));
     bool found = false;
     while (at < end && insideLattice(walk, lattice)) {
-        float exit = min(cellExit(walk), end);
+        LatticeWalk onward = walk;
+        float exit;
         uint index = UintArray(field.index).at[latticeCell(walk, lattice)];
         if (index == kNone) {
             if (found) {
                 return true;
             }
+            exit = min(cellExit(walk), end);
+            stepOn(onward);
         } else {
             FarBrick brick = FarBrickArray(field.bricks).at[index];
-            vec3 corner = brickCorner(field, walk.cell);
+            exit = min(leaveBrick(brick, onward), end);
             while (at < exit) {
                 MediumPiece piece = mediumFrom(field, brick, ray, inverse, at, exit);
                 bool none = piece.begin >= exit;
@@ -98,13 +112,13 @@ bool nextRun(FarFieldTable field, Lattice lattice, Ray ray, vec3 inverse, float 
                     run.extinction = piece.extinction;
                     run.scattering = piece.scattering;
                 }
-                run.far += farOnPiece(field, brick, corner, ray, piece, run.begin);
+                run.far += farOnPiece(field, index, brick, ray, piece, run.begin);
                 run.end = piece.end;
                 at = piece.end;
             }
         }
         at = exit;
-        stepOn(walk);
+        walk = onward;
     }
     return found;
 }
@@ -113,17 +127,17 @@ bool nextRun(FarFieldTable field, Lattice lattice, Ray ray, vec3 inverse, float 
 GlowSample glowAlongRay(Ray ray, float end, float tolerance) {
     GlowSample result = GlowSample(vec3(0.0), 0.0);
     FarFieldTable field = farFieldTable;
-    if (field.brickCounts.x == 0u) {
+    if (field.cellCounts.x == 0u) {
         return result;
     }
     vec3 inverse = reciprocal(ray.direction);
-    vec3 high = field.origin + field.brickSide * vec3(field.brickCounts);
+    vec3 high = field.origin + field.cellSide * vec3(field.cellCounts);
     float at, last;
     boxInterval(ray.origin, ray.direction, inverse, field.origin, high, end, at, last);
     if (at >= last) {
         return result;
     }
-    Lattice lattice = Lattice(field.origin, field.brickSide, ivec3(field.brickCounts));
+    Lattice lattice = Lattice(field.origin, field.cellSide, ivec3(field.cellCounts));
     LatticeWalk walk = latticeWalk(ray, inverse, at, lattice);
     HazeRun run;
     while (nextRun(field, lattice, ray, inverse, last, walk, at, run)) {

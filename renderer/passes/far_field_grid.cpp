@@ -19,11 +19,11 @@ namespace {
 
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(FarMedium) == 32);
-static_assert(sizeof(FarBrick) == 16);
+static_assert(sizeof(FarBrick) == 24);
 static_assert(sizeof(FarFieldTable) == 5 * 8 + 36);
 static_assert(sizeof(FarLight) == 56);
 static_assert(sizeof(FarEntry) == 12 + 4 * kFarFaces);
-static_assert(sizeof(FarBakeTable) == 13 * 8 + 28);
+static_assert(sizeof(FarBakeTable) == 12 * 8 + 28);
 
 constexpr std::uint32_t kBatchBricks = 512;
 constexpr std::uint32_t kFirstCapacity = 512;  // entries a brick
@@ -66,7 +66,8 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
     }
     settings_ = settings;
     const std::vector<FarMedium> media = mergeMedia(scene);
-    layout_ = layoutFarField(media, settings.spacing, settings.memoryBytes);
+    layout_ = layoutFarField(
+        media, {settings.spacing, settings_.eyes, settings.mostBricks, settings.memoryBytes});
     lights_ = buildFarLights(scene, media, settings.emitter);
     bake_.skyHeight = skyHeight(scene);
     bake_.spread = settings.spread;
@@ -91,19 +92,18 @@ void FarFieldGrid::uploadLayout(std::span<const FarMedium> media) {
     contents_.bricks = uploadArray<FarBrick>("far bricks", layout_.bricks);
     contents_.media = uploadArray<FarMedium>("far media", media);
     contents_.mediumList = uploadArray<uint>("far medium lists", layout_.mediumList);
-    nodes_ = gpu::Buffer(device_, "far nodes", layout_.nodes * sizeof(uvec2),
+    nodes_ = gpu::Buffer(device_, "far nodes", layout_.nodes() * sizeof(uvec2),
                          gpu::MemoryKind::device);
     contents_.nodes = addressWords(nodes_.address());
     contents_.origin = layout_.origin;
-    contents_.brickSide = layout_.brickSide;
-    contents_.brickCounts = layout_.counts;
+    contents_.cellSide = layout_.cellSide;
+    contents_.cellCounts = layout_.counts;
     contents_.nearRadius = settings_.nearRadius;
     contents_.nodeUnit = 1;
-    bake_.brickCells = uploadArray<uvec3>("far brick cells", layout_.cells);
     bake_.sides = allocate("far sides", layout_.bricks.size() * kBrickSideWords * 4);
     units_ = gpu::ReadableBuffer(device_, "far units", layout_.bricks.size() * 4);
     bake_.units = addressWords(units_.buffer().address());
-    sums_ = gpu::Buffer(device_, "far sums", layout_.nodes * sizeof(uvec3),
+    sums_ = gpu::Buffer(device_, "far sums", layout_.nodes() * sizeof(uvec3),
                         gpu::MemoryKind::device);
     bake_.sums = addressWords(sums_.address());
     if (!media.empty()) {

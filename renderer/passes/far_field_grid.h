@@ -26,10 +26,12 @@ namespace nightcity {
 struct FarFieldSettings {
     Emitter emitter = Emitter::pane;
     Visibility visibility = Visibility::full;
-    float spacing = 1;     // of the nodes, m
+    float spacing = 1;     // of the nodes where they are densest, m
     float nearRadius = 4;  // R of near_far_split.h, m; at least 4 spacings keep 1 %
     float spread = 0.06f;  // windows within this share of their distance are one; 0: never
-    std::uint64_t memoryBytes = 1'000'000'000;  // of the nodes, most
+    std::vector<vec3> eyes;  // m, where the camera of the shot is (FarDetail)
+    std::uint64_t mostBricks = 12000;           // FarDetail; with eyes
+    std::uint64_t memoryBytes = 1'000'000'000;  // of the bricks, most
 
     bool operator==(const FarFieldSettings&) const = default;
 };
@@ -52,7 +54,7 @@ public:
     VkDeviceAddress tableAddress() const { return table_ ? table_.address() : 0; }
     const FarFieldTable& table() const { return contents_; }
     const gpu::Buffer& nodes() const { return nodes_; }  // uvec2 each, as frames read them
-    std::uint64_t nodeCount() const { return layout_.nodes; }
+    std::uint64_t nodeCount() const { return layout_.nodes(); }
 
 private:
     // Bricks of one batch.

@@ -8,9 +8,13 @@
 #include <string>
 
 #include "errors.h"
+#include "scene/box_tree.h"
 
 namespace nightcity {
 namespace {
+
+constexpr double kLeastRadius = 2;   // cell sides: up to here bricks are the smallest in any case
+constexpr double kRadiusStep = 1.1;  // from one that is tried to the next
 
 std::string megabytes(double bytes) {
     char text[32];
@@ -18,13 +22,16 @@ std::string megabytes(double bytes) {
     return text;
 }
 
-void checkMemory(double bricks, float spacing, std::uint64_t memoryBytes) {
-    const double nodes = bricks * std::pow(double(kBrickCells) + 1, 3);
-    const double bytes = nodes * double(kFarNodeBytes);
-    if (bytes > double(memoryBytes) || nodes >= 4294967295.0) {
+double bytesOf(double bricks, glm::dvec3 cells) {
+    return bricks * double(kBrickNodes * kFarNodeBytes) + 4 * cells.x * cells.y * cells.z;
+}
+
+void checkMemory(double bricks, glm::dvec3 cells, const FarDetail& detail) {
+    const double bytes = bytesOf(bricks, cells);
+    if (bytes > double(detail.memoryBytes) || bricks * double(kBrickNodes) >= 4294967295.0) {
         throw DeviceError("the far field takes " + megabytes(bytes) + " at a node spacing of " +
-                          std::to_string(spacing) + " m, more than the " +
-                          megabytes(double(memoryBytes)) +
+                          std::to_string(detail.spacing) + " m, more than the " +
+                          megabytes(double(detail.memoryBytes)) +
                           " that it may: allow a larger error, or render a smaller city");
     }
 }
@@ -35,7 +42,7 @@ struct CellRange {
 
 CellRange cellsOf(const FarLayout& layout, const FarMedium& medium) {
     const glm::dvec3 origin(layout.origin);
-    const double side = layout.brickSide;
+    const double side = layout.cellSide;
     const glm::dvec3 lo = (glm::dvec3(medium.lo) - origin) / side;
     const glm::dvec3 hi = (glm::dvec3(medium.hi) - origin) / side;
     const glm::dvec3 most = glm::dvec3(layout.counts) - 1.0;
@@ -44,70 +51,170 @@ CellRange cellsOf(const FarLayout& layout, const FarMedium& medium) {
 }
 
 template <typename Visit>
-void visitCells(const FarLayout& layout, const FarMedium& medium, Visit&& visit) {
-    const CellRange range = cellsOf(layout, medium);
+void visitCells(CellRange range, uvec3 counts, Visit&& visit) {
     for (uint z = range.first.z; z <= range.last.z; ++z) {
         for (uint y = range.first.y; y <= range.last.y; ++y) {
             for (uint x = range.first.x; x <= range.last.x; ++x) {
-                visit((std::size_t{z} * layout.counts.y + y) * layout.counts.x + x);
+                visit((std::size_t{z} * counts.y + y) * counts.x + x);
             }
         }
     }
 }
 
-void placeLattice(FarLayout& layout, std::span<const FarMedium> media, float spacing,
-                  std::uint64_t memoryBytes) {
+void placeLattice(FarLayout& layout, std::span<const FarMedium> media, const FarDetail& detail) {
     vec3 lo = media.front().lo, hi = media.front().hi;
     for (const FarMedium& medium : media) {
         lo = glm::min(lo, medium.lo);
         hi = glm::max(hi, medium.hi);
     }
-    layout.origin = lo - 0.5f * spacing;
+    layout.origin = lo - 0.5f * detail.spacing;
     const glm::dvec3 cells = glm::ceil((glm::dvec3(hi) - glm::dvec3(layout.origin)) /
-                                       double(layout.brickSide));
-    // The index alone must not pass the memory either.
-    if (cells.x * cells.y * cells.z * 4 > double(memoryBytes)) {
-        checkMemory(cells.x * cells.y * cells.z, spacing, memoryBytes);
-    }
+                                       double(layout.cellSide));
+    checkMemory(0, cells, detail);
     layout.counts = uvec3(cells);
+}
+
+// Which cubes of 1, 2, 4 ... cells a side hold any haze, and how they part into bricks.
+class BrickTree {
+public:
+    BrickTree(const FarLayout& layout, std::span<const CellRange> media,
+              std::span<const vec3> eyes)
+        : layout_(layout), eyes_(eyes) {
+        for (uint scale = 0; scale < kBrickScales; ++scale) {
+            const uint side = 1u << scale;
+            const uvec3 counts = (layout.counts + side - 1u) >> scale;
+            Level level{counts, std::vector<bool>(std::size_t{counts.x} * counts.y * counts.z)};
+            for (const CellRange& range : media) {
+                visitCells({range.first >> scale, range.last >> scale}, counts,
+                           [&](std::size_t cube) { level.hazy[cube] = true; });
+            }
+            levels_.push_back(std::move(level));
+        }
+    }
+
+    // Nodes are as dense as can be up to `radius` m from an eye.
+    template <typename Visit>
+    void visitBricks(double radius, Visit&& visit) const {
+        const uvec3 counts = levels_.back().counts;
+        for (uint z = 0; z < counts.z; ++z) {
+            for (uint y = 0; y < counts.y; ++y) {
+                for (uint x = 0; x < counts.x; ++x) {
+                    if (!part({x, y, z}, kBrickScales - 1, radius, visit)) {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    // Stops soon after `most`.
+    std::uint64_t count(double radius, std::uint64_t most) const {
+        std::uint64_t bricks = 0;
+        visitBricks(radius, [&](uvec3, uint) { return ++bricks <= most; });
+        return bricks;
+    }
+
+private:
+    struct Level {
+        uvec3 counts;
+        std::vector<bool> hazy;
+    };
+
+    double distance(uvec3 cube, uint scale) const {
+        const double side = double(layout_.cellSide) * double(1u << scale);
+        const glm::dvec3 centre = glm::dvec3(layout_.origin) + (glm::dvec3(cube) + 0.5) * side;
+        double least = eyes_.empty() ? 0 : INFINITY;
+        for (const vec3 eye : eyes_) {
+            const glm::dvec3 away = glm::abs(glm::dvec3(eye) - centre);
+            least = std::min(least, glm::length(glm::max(away - 0.5 * side, glm::dvec3(0))));
+        }
+        return least;
+    }
+
+    // False where the visitor has seen enough.
+    template <typename Visit>
+    bool part(uvec3 cube, uint scale, double radius, Visit&& visit) const {
+        const Level& level = levels_[scale];
+        if (glm::any(glm::greaterThanEqual(cube, level.counts)) ||
+            !level.hazy[(std::size_t{cube.z} * level.counts.y + cube.y) * level.counts.x +
+                        cube.x]) {
+            return true;
+        }
+        if (scale == 0 || distance(cube, scale) >= radius * double(1u << scale)) {
+            return visit(cube << scale, scale);
+        }
+        for (uint i = 0; i < 8; ++i) {
+            const uvec3 child = 2u * cube + (uvec3(i, i >> 1, i >> 2) & 1u);
+            if (!part(child, scale - 1, radius, visit)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    const FarLayout& layout_;
+    std::span<const vec3> eyes_;
+    std::vector<Level> levels_;
+};
+
+double largestRadius(const FarLayout& layout, std::span<const vec3> eyes) {
+    const glm::dvec3 size = double(layout.cellSide) * glm::dvec3(layout.counts);
+    double largest = glm::length(size);
+    for (const vec3 eye : eyes) {
+        const glm::dvec3 centre = glm::dvec3(layout.origin) + 0.5 * size;
+        largest = std::max(largest, glm::length(glm::dvec3(eye) - centre) + glm::length(size));
+    }
+    return largest;
+}
+
+// As large as can be.
+double chooseRadius(const FarLayout& layout, const BrickTree& tree, const FarDetail& detail) {
+    const glm::dvec3 cells(layout.counts);
+    const double room = (double(detail.memoryBytes) - bytesOf(0, cells)) / bytesOf(1, {});
+    const auto most = std::min(detail.mostBricks, std::uint64_t(std::clamp(room, 0.0, 4e9)));
+    const double least = detail.eyes.empty() ? INFINITY : kLeastRadius * double(layout.cellSide);
+    double radius = largestRadius(layout, detail.eyes);
+    while (radius > least && tree.count(radius, most) > most) {
+        radius /= kRadiusStep;
+    }
+    checkMemory(double(tree.count(radius, ~std::uint64_t{0})), cells, detail);
+    return radius;
+}
+
+void addBrick(FarLayout& layout, uvec3 cell, uint scale, const BoxTree& media) {
+    const uvec3 last = glm::min(cell + (1u << scale), layout.counts) - 1u;
+    visitCells({cell, last}, layout.counts,
+               [&](std::size_t c) { layout.index[c] = uint(layout.bricks.size()); });
+    const auto first = layout.mediumList.size();
+    media.visitTouching({glm::dvec3(cell), glm::dvec3(last)},
+                        [&](uint medium) { layout.mediumList.push_back(medium); });
+    std::sort(layout.mediumList.begin() + std::ptrdiff_t(first), layout.mediumList.end());
+    layout.bricks.push_back({cell, scale, uint(first), uint(layout.mediumList.size() - first)});
 }
 
 }  // namespace
 
-FarLayout layoutFarField(std::span<const FarMedium> media, float spacing,
-                         std::uint64_t memoryBytes) {
+FarLayout layoutFarField(std::span<const FarMedium> media, const FarDetail& detail) {
     FarLayout layout;
-    layout.brickSide = spacing * float(kBrickCells);
+    layout.cellSide = detail.spacing * float(kBrickSteps);
     if (media.empty()) {
         return layout;
     }
-    placeLattice(layout, media, spacing, memoryBytes);
-    std::vector<uint> mediaOf(std::size_t{layout.counts.x} * layout.counts.y * layout.counts.z);
+    placeLattice(layout, media, detail);
+    std::vector<CellRange> ranges;
+    std::vector<Bounds> bounds;
     for (const FarMedium& medium : media) {
-        visitCells(layout, medium, [&](std::size_t cell) { ++mediaOf[cell]; });
+        ranges.push_back(cellsOf(layout, medium));
+        bounds.push_back({glm::dvec3(ranges.back().first), glm::dvec3(ranges.back().last)});
     }
-    const auto bricks = std::count_if(mediaOf.begin(), mediaOf.end(), [](uint n) { return n > 0; });
-    checkMemory(double(bricks), spacing, memoryBytes);
-    layout.index.assign(mediaOf.size(), ~0u);
-    uint listed = 0;
-    for (std::size_t cell = 0; cell < mediaOf.size(); ++cell) {
-        if (mediaOf[cell] > 0) {
-            layout.index[cell] = uint(layout.bricks.size());
-            layout.bricks.push_back({uint(layout.nodes), 0, listed, 0});
-            const std::size_t row = cell / layout.counts.x;
-            layout.cells.emplace_back(cell % layout.counts.x, row % layout.counts.y,
-                                      row / layout.counts.y);
-            layout.nodes += std::uint64_t{kBrickCells + 1} * (kBrickCells + 1) * (kBrickCells + 1);
-            listed += mediaOf[cell];
-        }
-    }
-    layout.mediumList.resize(listed);
-    for (uint i = 0; i < media.size(); ++i) {
-        visitCells(layout, media[i], [&](std::size_t cell) {
-            FarBrick& brick = layout.bricks[layout.index[cell]];
-            layout.mediumList[brick.firstMedium + brick.mediumCount++] = i;
-        });
-    }
+    const BrickTree tree(layout, ranges, detail.eyes);
+    const BoxTree mediaTree(std::move(bounds));
+    const double radius = chooseRadius(layout, tree, detail);
+    layout.index.assign(std::size_t{layout.counts.x} * layout.counts.y * layout.counts.z, ~0u);
+    tree.visitBricks(radius, [&](uvec3 cell, uint scale) {
+        addBrick(layout, cell, scale, mediaTree);
+        return true;
+    });
     return layout;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the bricks of the far field lie and which media each overlaps. No Vulkan.
+// Where the bricks of the far field lie, how large each is, and which media it overlaps.
+// No Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +13,30 @@
 
 namespace nightcity {
 
-struct FarLayout {
-    vec3 origin{0};      // m
-    float brickSide = 1; // m
-    uvec3 counts{0};     // of lattice cells; 0 without media
-    std::vector<uint> index;       // as FarFieldTable has them
-    std::vector<FarBrick> bricks;
-    std::vector<uvec3> cells;      // of the bricks
-    std::vector<uint> mediumList;
-    std::uint64_t nodes = 0;
+// How fine the field is where: nodes are `spacing` apart up to a distance from the eyes, and
+// beyond it farther in proportion to the distance. That distance is as large as `mostBricks`
+// and the memory allow.
+struct FarDetail {
+    float spacing = 1;               // m, of the nodes of the smallest bricks
+    std::span<const vec3> eyes;      // m, along the way of the camera; none: spacing everywhere
+    std::uint64_t mostBricks = ~0u;  // more only where the smallest such distance asks for more
+    std::uint64_t memoryBytes = ~std::uint64_t{0};  // of all bricks, never more
 };
 
-// `spacing`: of the nodes, m. Nodes lie half a spacing off the lower corner of the media, so
-// that no wall on a street grid runs through them. Throws DeviceError, with the figure, where the
-// nodes would take more than `memoryBytes`.
-FarLayout layoutFarField(std::span<const FarMedium> media, float spacing,
-                         std::uint64_t memoryBytes);
+struct FarLayout {
+    vec3 origin{0};      // m
+    float cellSide = 1;  // m
+    uvec3 counts{0};     // of lattice cells; 0 without media
+    std::vector<uint> index;       // as FarFieldTable has them
+    std::vector<FarBrick> bricks;  // neighbours in space mostly are neighbours here
+    std::vector<uint> mediumList;
+    std::uint64_t nodes() const { return std::uint64_t{bricks.size()} * kBrickNodes; }
+};
+
+// Nodes lie half a spacing off the lower corner of the media, so that no wall on a street grid
+// runs through them. Throws DeviceError, with the figure, where the field would take more than
+// the memory.
+FarLayout layoutFarField(std::span<const FarMedium> media, const FarDetail& detail);
 
 // What a node takes on the device: sums and halves, bytes.
 inline constexpr std::uint64_t kFarNodeBytes = 20;

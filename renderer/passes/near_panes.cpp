@@ -35,9 +35,9 @@ NearTable latticeOver(const FarFieldTable& field) {
     NearTable table{};
     table.origin = field.origin;
     table.radius = field.nearRadius;
-    const uint split = std::max(1u, uint(std::lround(2 * field.brickSide / field.nearRadius)));
-    table.side = field.brickSide / float(split);
-    table.counts = field.brickCounts * split;
+    const uint split = std::max(1u, uint(std::lround(2 * field.cellSide / field.nearRadius)));
+    table.side = field.cellSide / float(split);
+    table.counts = field.cellCounts * split;
     return table;
 }
 

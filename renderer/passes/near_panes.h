@@ -21,7 +21,7 @@ struct NearPanes {
     std::vector<uint> cellPanes;
 };
 
-// `field`: origin, brickSide, brickCounts and nearRadius are read.
+// `field`: origin, cellSide, cellCounts and nearRadius are read.
 NearPanes buildNearPanes(const FlatScene& scene, const FarFieldTable& field);
 
 }  // namespace nightcity

@@ -14,7 +14,6 @@ NIGHTCITY_BEGIN
 #define NIGHTCITY_CONSTANT_FAR_EMITTER 0     // kEmitterIsotropic and so on
 #define NIGHTCITY_CONSTANT_FAR_VISIBILITY 1  // 1: opaque surfaces hide windows
 
-NIGHTCITY_CONST uint kBrickNodes = (kBrickCells + 1u) * (kBrickCells + 1u) * (kBrickCells + 1u);
 NIGHTCITY_CONST uint kBrickSideWords = (kBrickNodes + 31u) / 32u;
 NIGHTCITY_CONST uint kColumnThreads = 96u;  // at least the columns of a brick
 NIGHTCITY_CONST uint kFarStack = 6144u;     // lights that a group keeps for later, most
@@ -57,7 +56,6 @@ struct FarBakeTable {
     uvec2 units;        // float a brick, W m^-2: a power of two
     uvec2 entries;      // FarEntry, entryCapacity a brick of the batch
     uvec2 entryCounts;  // uint a brick of the batch: may be more than there is room for
-    uvec2 brickCells;   // uvec3 a brick: its cell of the lattice
     uint lightCount;
     uint rootCount;
     uint entryCapacity;

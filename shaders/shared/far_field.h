@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The far part of the fluence on a grid (transport/near_far_split.h): a lattice of cubic
-// bricks over the bounds of the media; bricks without haze are not there. Each brick
-// has its own nodes, those on its faces included, at the spacing of its level, and a list of
-// the media that overlap it. An address is a uvec2: low word, high word.
+// cells over the bounds of the media, and cubic bricks of 1, 2, 4 ... cells a side, each at a
+// multiple of its side; cells without haze have none. Each brick has its own kBrickNodes
+// nodes, those on its faces included, and a list of the media that overlap it. An address is
+// a uvec2: low word, high word.
 #ifndef NIGHTCITY_SHADERS_FAR_FIELD_H
 #define NIGHTCITY_SHADERS_FAR_FIELD_H
 
@@ -12,8 +13,9 @@
 
 NIGHTCITY_BEGIN
 
-NIGHTCITY_CONST uint kBrickCells = 8u;  // along each side, at level 0
-NIGHTCITY_CONST uint kBrickLevels = 4u;  // at level l a brick has kBrickCells >> l cells a side
+NIGHTCITY_CONST uint kBrickSteps = 8u;   // from node to node along each side of a brick
+NIGHTCITY_CONST uint kBrickNodes = (kBrickSteps + 1u) * (kBrickSteps + 1u) * (kBrickSteps + 1u);
+NIGHTCITY_CONST uint kBrickScales = 8u;  // a brick of scale s is 1 << s lattice cells a side
 
 // Homogeneous haze in a box; equal neighbours are one where together they are a box.
 struct FarMedium {
@@ -24,21 +26,22 @@ struct FarMedium {
 };
 
 struct FarBrick {
-    uint firstNode;    // into the nodes; x fastest, then y
-    uint level;
+    uvec3 cell;        // its lowest in the lattice, each a multiple of 1 << scale
+    uint scale;        // below kBrickScales
     uint firstMedium;  // into the medium list
     uint mediumCount;  // at least 1
 };
 
 struct FarFieldTable {
-    uvec2 index;       // uint a lattice cell, x fastest: into bricks, or kNone
+    uvec2 index;       // uint a lattice cell, x fastest: the brick that holds it, or kNone
     uvec2 bricks;      // FarBrick
-    uvec2 nodes;       // uvec2 a node: red, green, blue as halves, in nodeUnit
+    uvec2 nodes;       // uvec2 a node, kBrickNodes a brick, x fastest, then y: red, green, blue
+                       // as halves, in nodeUnit
     uvec2 media;       // FarMedium
     uvec2 mediumList;  // uint into media, those of one brick after another
     vec3 origin;       // m, lower corner of the lattice
-    float brickSide;   // m
-    uvec3 brickCounts; // of the lattice along each axis; 0: no haze
+    float cellSide;    // m
+    uvec3 cellCounts;  // of the lattice along each axis; 0: no haze
     float nodeUnit;    // W m^-2
     float nearRadius;  // m, R of near_far_split.h
 };

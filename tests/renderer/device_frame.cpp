@@ -32,7 +32,7 @@ RenderDelegate& testDelegate() {
 Frame renderOnDevice(const FlatScene& scene, const RenderProduct& product,
                      const RenderSettings& settings, RenderStatistics* statistics) {
     RenderDelegate& delegate = testDelegate();
-    delegate.sync(scene, product.frame, settings, {});
+    delegate.sync(scene, product.camera, product.frame, settings, {});
     delegate.render(product, settings, {});
     if (statistics != nullptr) {
         *statistics = delegate.statistics();

@@ -22,9 +22,12 @@ void main() {
         return;
     }
     FarFieldTable field = farFieldTable;
-    vec3 cell = (places[index] - field.origin) / field.brickSide;
-    uint brick = brickAt(field, ivec3(floor(cell)));
-    answers[index] =
-        brick == kNone ? vec3(-1.0)
-                       : farFluence(field, FarBrickArray(field.bricks).at[brick], fract(cell));
+    uint found = brickAt(field, ivec3(floor((places[index] - field.origin) / field.cellSide)));
+    if (found == kNone) {
+        answers[index] = vec3(-1.0);
+        return;
+    }
+    FarBrick brick = FarBrickArray(field.bricks).at[found];
+    vec3 place = (places[index] - brickCorner(field, brick)) / brickSide(field, brick);
+    answers[index] = farFluence(field, found, place);
 }

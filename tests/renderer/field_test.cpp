@@ -156,7 +156,7 @@ TEST(Field, IsSmoothWhereTheCameraMovesByMillimetres) {
     const RenderSettings settings = fieldSettings();
     std::vector<std::vector<glm::vec3>> steps;
     RenderDelegate& delegate = testDelegate();
-    delegate.sync(scene, 1, settings, {});
+    delegate.sync(scene, product.camera, 1, settings, {});
     for (int i = 0; i < 20; ++i) {
         product.cameraOffset = {0.001f * float(i), 0, 0};
         delegate.render(product, settings, {});

@@ -175,7 +175,7 @@ TEST(Frame, WithoutMediaIsTheSurfaceFrame) {
 TEST(Frame, ProgressRunsToTheEnd) {
     const FlatScene scene = paperCity(1).load();
     RenderDelegate& delegate = testDelegate();
-    delegate.sync(scene, 1, quick(), {});
+    delegate.sync(scene, "overview75", 1, quick(), {});
     std::vector<double> done;
     delegate.render(productOf("overview75", 640, 500), quick(),
                     [&done](double share) { done.push_back(share); });
