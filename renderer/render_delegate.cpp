@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kMostPixels = 1u << 30;  // pixel numbers are 32 bits on the device
 
 // On the paper's city the far field is then within 1 % on 95 of 100 pixels.
-constexpr float kFarSpacing = 0.7f;  // m
+constexpr float kFarSpacing = 0.72f;  // m
 
 FarFieldSettings farFieldSettings(const RenderSettings& settings, const CameraTrack& camera) {
     FarFieldSettings far;

@@ -96,11 +96,11 @@ ReadFace faceOfLane(ReadFace mine, uint lane) {
     return face;
 }
 
-// The planes of a shadow: all beyond the face, inside the planes through the point and each
-// edge.
+// The planes of a shadow: all beyond the face, nodes on it not, inside the planes through the
+// point and each edge.
 NodeRange beyondFace(vec3 normal, vec3 corner, float side, Column column) {
     NodeRange range = NodeRange(0.0, float(kColumnNodes) - 1.0);
-    keepBelow(range, side * dot(normal, column.foot - corner),
+    keepBelow(range, side * dot(normal, column.foot - corner) + kOnFace,
               side * normal.z * column.spacing);
     return range;
 }

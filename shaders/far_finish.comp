@@ -11,6 +11,8 @@
 
 layout(local_size_x = kGroupSize) in;
 
+layout(constant_id = NIGHTCITY_CONSTANT_FAR_MEAN) const uint kKeepMean = 1u;
+
 const float kLargestHalf = 65504.0;
 
 bool isSolid(uint brick, uint node) {
@@ -36,11 +38,42 @@ vec3 airNode(FarFieldTable field, ivec3 place, out bool found) {
         if (steps << brick.scale == at && all(lessThanEqual(steps, ivec3(8)))) {
             uint node = nodeAt(uvec3(steps));
             found = !isSolid(index, node);
-            return vec3(Uvec3Array(bakeTable.sums).at[index * kBrickNodes + node]) *
-                   FloatArray(bakeTable.units).at[index];
+            if (found) {
+                return vec3(Uvec3Array(bakeTable.sums).at[index * kBrickNodes + node]) *
+                       FloatArray(bakeTable.units).at[index];
+            }
         }
     }
     return vec3(0.0);
+}
+
+// Second difference along an axis; beyond a wall it goes on as before it. 0 where too few nodes
+// are in the air.
+vec3 bendAlong(FarFieldTable field, ivec3 place, ivec3 way, vec3 value) {
+    bool isBefore, isAfter, isNext;
+    vec3 before = airNode(field, place - way, isBefore);
+    vec3 after = airNode(field, place + way, isAfter);
+    if (isBefore && isAfter) {
+        return before - 2.0 * value + after;
+    }
+    if (!isBefore && !isAfter) {
+        return vec3(0.0);
+    }
+    vec3 next = airNode(field, place + (isAfter ? 2 : -2) * way, isNext);
+    return isNext ? value - 2.0 * (isAfter ? after : before) + next : vec3(0.0);
+}
+
+// Straight interpolation between the values of a curved function is off by 1 / 12 of its second
+// difference in the mean over a cell, and so along rays; between these it is not (Condat,
+// Blu and Unser 2005, Beyond interpolation: optimal reconstruction by quasi-interpolation).
+vec3 keptInTheMean(FarFieldTable field, ivec3 place, uint scale, vec3 value) {
+    if (kKeepMean == 0u) {
+        return value;
+    }
+    vec3 bend = bendAlong(field, place, ivec3(1, 0, 0) << scale, value) +
+                bendAlong(field, place, ivec3(0, 1, 0) << scale, value) +
+                bendAlong(field, place, ivec3(0, 0, 1) << scale, value);
+    return max(value - bend / 12.0, vec3(0.0));
 }
 
 // From the two nodes that follow in a direction; 0 and false where the first is no air.
@@ -83,9 +116,11 @@ void main() {
     uint firstNode = index * kBrickNodes;
     float unit = FloatArray(bakeTable.units).at[index];
     for (uint node = gl_LocalInvocationIndex; node < kBrickNodes; node += kGroupSize) {
+        ivec3 place = first + ivec3(nodePlace(node) << brick.scale);
+        vec3 sum = vec3(Uvec3Array(bakeTable.sums).at[firstNode + node]);
         vec3 value = isSolid(index, node)
-                         ? fromTheAir(field, first + ivec3(nodePlace(node) << brick.scale), brick.scale)
-                         : vec3(Uvec3Array(bakeTable.sums).at[firstNode + node]) * unit;
+                         ? fromTheAir(field, place, brick.scale)
+                         : keptInTheMean(field, place, brick.scale, sum * unit);
         value = min(value / field.nodeUnit, vec3(kLargestHalf));
         FarNodeArray(field.nodes).at[firstNode + node] =
             uvec2(packHalf2x16(value.xy), packHalf2x16(vec2(value.z, 0.0)));

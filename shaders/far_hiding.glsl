@@ -20,11 +20,11 @@ int boxSide(OccluderFace face, vec3 toCorner, vec3 centre, vec3 halfSides) {
 
 // Whether every straight way from the box about `light` to the box about the origin crosses the
 // face: the planes through each corner of the one and each edge keep all of the other on
-// their inner side.
+// their inner side, and nothing of it lies on the face.
 bool hidesAll(OccluderFace face, vec3 origin, vec3 light, vec3 lightHalf, vec3 brickHalf) {
     vec3 corner = faceCorner(face, 0u, origin);
     int lightSide = boxSide(face, corner, light, lightHalf);
-    if (lightSide == 0 || boxSide(face, corner, vec3(0.0), brickHalf) != -lightSide) {
+    if (lightSide == 0 || boxSide(face, corner, vec3(0.0), brickHalf + kOnFace) != -lightSide) {
         return false;
     }
     for (uint i = 0u; i < face.cornerCount; ++i) {

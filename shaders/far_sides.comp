@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which nodes of a brick lie in the air and which in a solid: below the ground, or where
-// the first face above is seen from behind.
+// Which nodes of a brick lie in haze and which do not: outside all media, in a solid (where the
+// first face above is seen from behind), or below the ground. Above the haze windows may be
+// seen over the roofs that the haze below never sees.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -18,6 +19,19 @@ shared uint wholeBrick;
 // Not quite upward, so that it meets no edge of walls that stand on a street grid.
 const vec3 kUpward = vec3(0.00137, 0.00171, 1.0);
 const uint kUndecided = 2u;
+
+bool isInHaze(vec3 place, FarFieldTable field) {
+    Between between = betweenBoxAndBox(place, vec3(0.0), vec3(0.0), vec3(0.0));
+    uint walk = 0u;
+    for (uint index = nextBoxBetween(bakeTable.mediaNodes, walk, between); index != kNone;
+         index = nextBoxBetween(bakeTable.mediaNodes, walk, between)) {
+        FarMedium medium = FarMediumArray(field.media).at[index];
+        if (all(greaterThan(place, medium.lo)) && all(lessThan(place, medium.hi))) {
+            return true;
+        }
+    }
+    return false;
+}
 
 bool isInSolid(vec3 place) {
     if (sceneTable.groundMaterial != kNone && place.z < sceneTable.groundHeight) {
@@ -41,6 +55,19 @@ bool isInSolid(vec3 place) {
         }
     }
     return fromBehind;
+}
+
+// Whether a node is of no use to the haze around it. One on a wall belongs to the air before it,
+// one on a roof with no haze above it to nothing.
+bool isOutside(vec3 place, uint brickSide, FarFieldTable field) {
+    for (uint i = 0u; i < 8u; ++i) {
+        vec3 near = place + 2.0 * kOnFace * (vec3(uvec3(i, i >> 1, i >> 2) & 1u) * 2.0 - 1.0);
+        bool inSolid = brickSide == kUndecided ? isInSolid(near) : brickSide == 1u;
+        if (!inSolid && isInHaze(near, field)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // One answer for all of the brick where no face and no ground meets it.
@@ -73,8 +100,7 @@ void main() {
     float spacing = brickSpacing(field, brick);
     for (uint node = thread; node < kBrickNodes; node += kGroupSize) {
         vec3 place = corner + spacing * vec3(nodePlace(node));
-        bool inside = wholeBrick == kUndecided ? isInSolid(place) : wholeBrick == 1u;
-        if (inside) {
+        if (isOutside(place, wholeBrick, field)) {
             atomicOr(solid[node >> 5], 1u << (node & 31u));
         }
     }

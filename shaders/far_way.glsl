@@ -12,13 +12,15 @@
 
 NIGHTCITY_ARRAY(MediaArray, FarMedium)
 
+// Not by a face on which `to` lies.
 bool isHiddenByAny(vec3 from, vec3 to, vec3 origin) {
     Between between = betweenBoxAndStretch(origin + from, vec3(0.0), to - from, to - from);
     uint walk = 0u;
     for (uint index = nextOccluder(walk, between); index != kNone;
          index = nextOccluder(walk, between)) {
         OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
-        if (faceCrossing(face, origin, from, to) >= 0.0) {
+        float beyond = dot(face.normal, to - faceCorner(face, 0u, origin));
+        if (abs(beyond) > kOnFace && faceCrossing(face, origin, from, to) >= 0.0) {
             return true;
         }
     }

@@ -36,27 +36,8 @@ bool isListed(MediaBox box, uint window) {
     return false;
 }
 
-// Whether the media box about a point lists a window.
-bool isListedAt(vec3 point, uint window) {
-    if (sceneTable.mediaNodes == uvec2(0)) {
-        return false;
-    }
-    BoxNodeArray nodes = BoxNodeArray(sceneTable.mediaNodes);
-    uint count = nodes.at[0].next;
-    for (uint walk = 0u; walk < count;) {
-        BoxNode node = nodes.at[walk];
-        bool isInside =
-            all(lessThanEqual(node.lo, point)) && all(lessThan(point, node.hi));
-        if (isInside && node.item != kNone) {
-            return isListed(MediaBoxArray(sceneTable.mediaBoxes).at[node.item], window);
-        }
-        walk = isInside ? walk + 1u : node.next;
-    }
-    return false;
-}
-
 // The part of the span on the bright side of a window, softened by its size.
-AirlightInterval brightInterval(Ray ray, HazeSpan span, Window window) {
+AirlightInterval brightInterval(Ray ray, MediaSpan span, Window window) {
     vec3 fromWindow = ray.origin - window.centre;
     float begin = span.begin;
     float end = span.end;
@@ -83,18 +64,14 @@ AirlightInterval brightInterval(Ray ray, HazeSpan span, Window window) {
 
 // A point of the haze on a ray, a window, and the density of drawing both (1/m).
 struct ScatteringPoint {
-    HazePoint haze;
+    MediumPoint medium;
     uint window;  // or kNone
     float byFlight;
     float byAngle;
 };
 
-LightQuery lightsAlong(Ray ray, HazeSpan span, float nearShare) {
-    return LightQuery(ray, span.begin, span.end, 0.0, nearShare);
-}
-
-float flightDensity(HazePoint haze, HazeSpan span) {
-    return haze.extinction * exp(-haze.depth) / collisionProbability(span.depth);
+float flightDensity(MediumPoint medium, float extinction, MediaSpan span) {
+    return extinction * exp(-medium.depth) / collisionProbability(span.depth);
 }
 
 float angleDensity(AirlightInterval interval, float distance) {
@@ -106,27 +83,33 @@ float angleDensity(AirlightInterval interval, float distance) {
     return interval.h / (airlightArc(interval) * (interval.h * interval.h + u * u));
 }
 
-ScatteringPoint drawByFlight(Ray ray, HazeSpan span, float nearShare, inout RandomStream random) {
+float extinctionOf(uint box) {
+    return MediaBoxArray(sceneTable.mediaBoxes).at[box].extinction;
+}
+
+ScatteringPoint drawByFlight(Ray ray, MediaSpan span, inout RandomStream random) {
     float share = nextRandom(random) * collisionProbability(span.depth);
     ScatteringPoint point;
-    point.haze = hazeAtDepth(ray, span.end, depthOfShare(share));
-    vec3 place = ray.origin + point.haze.distance * ray.direction;
-    LightChoice light = chooseLight(lightsAt(place, point.haze.extinction), random);
+    point.medium = mediumAtDepth(ray, span.end, depthOfShare(share));
+    float extinction = extinctionOf(point.medium.box);
+    vec3 place = ray.origin + point.medium.distance * ray.direction;
+    LightChoice light = chooseLight(lightsAt(place, extinction), random);
     point.window = light.window;
     if (light.window != kNone) {
         Window window = WindowArray(sceneTable.windows).at[light.window];
-        point.byFlight = light.probability * flightDensity(point.haze, span);
-        point.byAngle = angleDensity(brightInterval(ray, span, window), point.haze.distance);
+        point.byFlight = light.probability * flightDensity(point.medium, extinction, span);
+        point.byAngle = angleDensity(brightInterval(ray, span, window), point.medium.distance);
         if (point.byAngle > 0.0) {
-            point.byAngle *= lightProbability(lightsAlong(ray, span, nearShare), light.window);
+            point.byAngle *=
+                lightProbability(lightsAlong(ray, span.begin, span.end), light.window);
         }
     }
     return point;
 }
 
-ScatteringPoint drawByAngle(Ray ray, HazeSpan span, float nearShare, inout RandomStream random) {
+ScatteringPoint drawByAngle(Ray ray, MediaSpan span, inout RandomStream random) {
     ScatteringPoint point;
-    LightChoice light = chooseLight(lightsAlong(ray, span, nearShare), random);
+    LightChoice light = chooseLight(lightsAlong(ray, span.begin, span.end), random);
     point.window = kNone;
     if (light.window == kNone) {
         return point;
@@ -138,43 +121,42 @@ ScatteringPoint drawByAngle(Ray ray, HazeSpan span, float nearShare, inout Rando
     }
     float distance = interval.begin +
                      airlightStepOfArc(interval, airlightArc(interval), nextRandom(random));
-    point.haze = hazeAtDistance(ray, distance);
-    if (point.haze.extinction <= 0.0) {
+    point.medium = mediumAtDistance(ray, distance);
+    if (point.medium.box == kNone) {
         return point;
     }
     point.window = light.window;
+    float extinction = extinctionOf(point.medium.box);
     point.byAngle = light.probability * angleDensity(interval, distance);
     point.byFlight =
-        flightDensity(point.haze, span) *
-        lightProbability(lightsAt(ray.origin + distance * ray.direction, point.haze.extinction),
-                         light.window);
+        flightDensity(point.medium, extinction, span) *
+        lightProbability(lightsAt(ray.origin + distance * ray.direction, extinction), light.window);
     return point;
 }
 
-// Radiance, W m^-2 sr^-1. `span` is the haze on the ray up to its surface, `nearShare` the
-// share of choices for nearLights, where they were found for this ray, else 0.
-vec3 inScatteredLight(Ray ray, HazeSpan span, float nearShare, inout RandomStream random) {
+// Radiance, W m^-2 sr^-1. `span` is the haze on the ray up to its surface.
+vec3 inScatteredLight(Ray ray, MediaSpan span, inout RandomStream random) {
     if (span.depth <= 0.0) {
         return vec3(0.0);
     }
     ScatteringPoint point;
     if (nextRandom(random) < 0.5) {
-        point = drawByFlight(ray, span, nearShare, random);
+        point = drawByFlight(ray, span, random);
     } else {
-        point = drawByAngle(ray, span, nearShare, random);
+        point = drawByAngle(ray, span, random);
     }
     if (point.window == kNone) {
         return vec3(0.0);
     }
-    HazePoint haze = point.haze;
-    vec3 place = ray.origin + haze.distance * ray.direction;
+    MediaBox box = MediaBoxArray(sceneTable.mediaBoxes).at[point.medium.box];
     float density = 0.5 * (point.byFlight + point.byAngle);
-    if ((kListed != 0u && !isListedAt(place, point.window)) || density <= 0.0) {
+    if ((kListed != 0u && !isListed(box, point.window)) || density <= 0.0) {
         return vec3(0.0);
     }
-    DirectLight light = directLight(point.window, place, haze.extinction, random);
+    vec3 place = ray.origin + point.medium.distance * ray.direction;
+    DirectLight light = directLight(point.window, place, box.extinction, random);
     float phase = phaseFunction(frameTable.anisotropy, dot(light.direction, ray.direction));
-    return haze.scattering * exp(-haze.depth) * phase / density * light.fluence;
+    return box.extinction * box.albedo * exp(-point.medium.depth) * phase / density * light.fluence;
 }
 
 #endif

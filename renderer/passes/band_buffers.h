@@ -52,7 +52,6 @@ private:
     gpu::Buffer progress_;
     gpu::Buffer segments_;
     gpu::Buffer pathSums_;
-    gpu::Buffer nearLights_;
     gpu::Buffer glowSquares_;
     gpu::Buffer pixels_;
     gpu::Buffer samples_;

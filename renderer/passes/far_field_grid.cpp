@@ -61,13 +61,15 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
     contents_ = {};
     bake_ = {};
     if (!hasPipelines_ || settings.emitter != settings_.emitter ||
-        settings.visibility != settings_.visibility) {
+        settings.visibility != settings_.visibility || settings.keepMean != settings_.keepMean) {
         makePipelines(settings);
     }
     settings_ = settings;
     const std::vector<FarMedium> media = mergeMedia(scene);
+    const LatticeAlignment nodes =
+        alignLattice(scene.mediaBoxes, settings.spacing, settings.emitter);
     layout_ = layoutFarField(
-        media, {settings.spacing, settings_.eyes, settings.mostBricks, settings.memoryBytes});
+        media, {nodes, settings_.eyes, settings.mostBricks, settings.memoryBytes});
     lights_ = buildFarLights(scene, media, settings.emitter);
     bake_.skyHeight = skyHeight(scene);
     bake_.spread = settings.spread;
@@ -79,7 +81,8 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
 
 void FarFieldGrid::makePipelines(const FarFieldSettings& settings) {
     const std::uint32_t visibility = settings.visibility == Visibility::full ? 1 : 0;
-    const std::vector<std::uint32_t> constants{emitterConstant(settings.emitter), visibility};
+    const std::uint32_t mean = settings.keepMean ? 1 : 0;
+    const std::vector<std::uint32_t> constants{emitterConstant(settings.emitter), visibility, mean};
     sides_ = makePipeline(device_, "far sides", kFarSidesSpirv, {}, constants);
     sight_ = makePipeline(device_, "far sight", kFarSightSpirv, {}, constants);
     sum_ = makePipeline(device_, "far sum", kFarSumSpirv, {}, constants);

@@ -28,6 +28,7 @@ struct FarFieldSettings {
     Visibility visibility = Visibility::full;
     float spacing = 1;     // of the nodes where they are densest, m
     float nearRadius = 4;  // R of near_far_split.h, m; at least 4 spacings keep 1 %
+    bool keepMean = true;  // nodes hold what keeps the mean between them, not what is at them
     float spread = 0.06f;  // windows within this share of their distance are one; 0: never
     std::vector<vec3> eyes;  // m, where the camera of the shot is (FarDetail)
     std::uint64_t mostBricks = 12000;           // FarDetail; with eyes

@@ -30,7 +30,7 @@ void checkMemory(double bricks, glm::dvec3 cells, const FarDetail& detail) {
     const double bytes = bytesOf(bricks, cells);
     if (bytes > double(detail.memoryBytes) || bricks * double(kBrickNodes) >= 4294967295.0) {
         throw DeviceError("the far field takes " + megabytes(bytes) + " at a node spacing of " +
-                          std::to_string(detail.spacing) + " m, more than the " +
+                          std::to_string(detail.nodes.spacing) + " m, more than the " +
                           megabytes(double(detail.memoryBytes)) +
                           " that it may: allow a larger error, or render a smaller city");
     }
@@ -62,12 +62,11 @@ void visitCells(CellRange range, uvec3 counts, Visit&& visit) {
 }
 
 void placeLattice(FarLayout& layout, std::span<const FarMedium> media, const FarDetail& detail) {
-    vec3 lo = media.front().lo, hi = media.front().hi;
+    vec3 hi = media.front().hi;
     for (const FarMedium& medium : media) {
-        lo = glm::min(lo, medium.lo);
         hi = glm::max(hi, medium.hi);
     }
-    layout.origin = lo - 0.5f * detail.spacing;
+    layout.origin = detail.nodes.origin;
     const glm::dvec3 cells = glm::ceil((glm::dvec3(hi) - glm::dvec3(layout.origin)) /
                                        double(layout.cellSide));
     checkMemory(0, cells, detail);
@@ -196,7 +195,7 @@ void addBrick(FarLayout& layout, uvec3 cell, uint scale, const BoxTree& media) {
 
 FarLayout layoutFarField(std::span<const FarMedium> media, const FarDetail& detail) {
     FarLayout layout;
-    layout.cellSide = detail.spacing * float(kBrickSteps);
+    layout.cellSide = detail.nodes.spacing * float(kBrickSteps);
     if (media.empty()) {
         return layout;
     }

@@ -10,15 +10,16 @@
 #include <vector>
 
 #include "far_field.h"
+#include "passes/far_alignment.h"
 
 namespace nightcity {
 
-// How fine the field is where: nodes are `spacing` apart up to a distance from the eyes, and
+// How fine the field is where: nodes are nodes.spacing apart up to a distance from the eyes, and
 // beyond it farther in proportion to the distance. That distance is as large as `mostBricks`
 // and the memory allow.
 struct FarDetail {
-    float spacing = 1;               // m, of the nodes of the smallest bricks
-    std::span<const vec3> eyes;      // m, along the way of the camera; none: spacing everywhere
+    LatticeAlignment nodes;          // of the smallest bricks
+    std::span<const vec3> eyes;      // m, along the way of the camera; none: so everywhere
     std::uint64_t mostBricks = ~0u;  // more only where the smallest such distance asks for more
     std::uint64_t memoryBytes = ~std::uint64_t{0};  // of all bricks, never more
 };
@@ -33,9 +34,7 @@ struct FarLayout {
     std::uint64_t nodes() const { return std::uint64_t{bricks.size()} * kBrickNodes; }
 };
 
-// Nodes lie half a spacing off the lower corner of the media, so that no wall on a street grid
-// runs through them. Throws DeviceError, with the figure, where the field would take more than
-// the memory.
+// Throws DeviceError, with the figure, where the field would take more than the memory.
 FarLayout layoutFarField(std::span<const FarMedium> media, const FarDetail& detail);
 
 // What a node takes on the device: sums and halves, bytes.

@@ -13,6 +13,8 @@ NIGHTCITY_BEGIN
 // Specialization constants of far_sight.comp and far_sum.comp: the model.
 #define NIGHTCITY_CONSTANT_FAR_EMITTER 0     // kEmitterIsotropic and so on
 #define NIGHTCITY_CONSTANT_FAR_VISIBILITY 1  // 1: opaque surfaces hide windows
+// Of far_finish.comp: 1: nodes are such that straight interpolation keeps the mean over a cell
+#define NIGHTCITY_CONSTANT_FAR_MEAN 2
 
 NIGHTCITY_CONST uint kBrickSideWords = (kBrickNodes + 31u) / 32u;
 NIGHTCITY_CONST uint kColumnThreads = 96u;  // at least the columns of a brick
@@ -20,6 +22,9 @@ NIGHTCITY_CONST uint kFarStack = 6144u;     // lights that a group keeps for lat
 NIGHTCITY_CONST uint kFarFaces = 29u;       // of one entry
 NIGHTCITY_CONST uint kManyFaces = 0xffu;    // more: each node walks the tree of occluders
 NIGHTCITY_CONST uint kCluster = 0x100u;     // sight is that from the brick's corners
+// m: a node so near to the plane of a face lies on it, and is seen from both of its sides: most
+// walls lie on planes of nodes, and the air before them reads their nodes.
+NIGHTCITY_CONST float kOnFace = 2e-3f;
 NIGHTCITY_CONST float kClusterCos = 0.95f;  // of the widest cone of normals that is one direction
 
 // A node of the tree over all windows, lit or not. The first child of an inner node follows it.
