@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from nightcity import __version__
-from nightcity.errors import NightcityError, UsageError
+from nightcity.errors import NightcityError
 from nightcity.farm.commands import add_farm
 
 
@@ -266,39 +266,13 @@ def _movie(commands: argparse._SubParsersAction) -> None:
 
 
 def _chart(commands: argparse._SubParsersAction) -> None:
-    command = commands.add_parser("chart", help="speed against accuracy; where methods break")
-    command.add_argument(
-        "stage", type=Path, nargs="?", help="a USD stage, or the folder of a flat scene"
+    from nightcity.chart.command import add_arguments
+
+    add_arguments(
+        commands.add_parser(
+            "chart", help="speed against accuracy; what a scene needs; where methods break"
+        )
     )
-    command.add_argument("-o", "--output", type=Path, required=True, help="the chart's folder")
-    command.add_argument("--camera", help="(default: the stage's)")
-    command.add_argument("--quick", action="store_true", help="a smaller image, fewer points")
-    command.add_argument(
-        "--stability",
-        action="store_true",
-        help="instead, the errors of all methods in tiny scenes where methods break",
-    )
-    command.add_argument(
-        "--methods", type=lambda text: text.split(","), metavar="NAMES", help="of --stability"
-    )
-
-    def run(options: argparse.Namespace) -> None:
-        if options.stability:
-            if options.stage or options.camera:
-                raise UsageError("--stability has scenes of its own: name no stage, no camera")
-            from nightcity.chart.stability.report import chart_stability
-
-            _list_files(chart_stability(options.output, options.methods, options.quick))
-            return
-        if options.methods or not options.stage:
-            raise UsageError(
-                "name a stage to chart, or give --stability, to which --methods belongs"
-            )
-        from nightcity.chart.speed_accuracy import chart
-
-        _list_files(chart(options.stage, options.output, options.camera, options.quick))
-
-    command.set_defaults(run=run)
 
 
 def _bench(commands: argparse._SubParsersAction) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from nightcity.chart.speed_accuracy import chart
+from nightcity.chart.speed_accuracy import ChartOptions, chart
 from nightcity.city.generate import generate
 from nightcity.city.import_town import import_town
 from nightcity.city.model import City
@@ -36,7 +36,7 @@ def demo(output: Path, town: Path | None) -> None:
     _say(f"importing {town.name}")
     made += _pictures(import_town(town, TownOptions()), output / "town", samples=2)
     _say("charting speed against accuracy")
-    made += chart(scene, output / "chart", "overview75", quick=True)
+    made += chart([scene], output / "chart", ChartOptions(["overview75"], None, quick=True))
     print("made:")
     for path in made:
         print(f"  {path}")

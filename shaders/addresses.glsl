@@ -33,9 +33,11 @@ NIGHTCITY_ARRAY(SurfaceRecordArray, SurfaceRecord)
 NIGHTCITY_ARRAY(RayProgressArray, RayProgress)
 NIGHTCITY_ARRAY(SegmentArray, Segment)
 NIGHTCITY_ARRAY(LightNodeArray, LightNode)
+NIGHTCITY_ARRAY(NearLightsArray, NearLights)
 NIGHTCITY_ARRAY(PathSumsArray, PathSums)
 NIGHTCITY_ARRAY(BoxNodeArray, BoxNode)
 NIGHTCITY_ARRAY(OccluderFaceArray, OccluderFace)
+NIGHTCITY_ARRAY(HazeNodeArray, HazeNode)
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SceneReference {
     SceneTable table;

@@ -6,6 +6,7 @@
 #ifndef NIGHTCITY_SHADERS_DIRECT_LIGHT_GLSL
 #define NIGHTCITY_SHADERS_DIRECT_LIGHT_GLSL
 
+#include "haze_walk.glsl"
 #include "intersect.glsl"
 #include "light_tree.glsl"
 #include "transport/spherical_rectangle.h"
@@ -78,18 +79,18 @@ EmitterSample sampleEmitter(Window window, vec3 point, vec2 u) {
     return EmitterSample(window.centre, distance2 > 0.0 ? perWatt : 0.0);
 }
 
-// Between the emitting point and the other. Without visibility: the haze of the point's
-// own box, `extinction`, all the way.
-float transmittanceTo(vec3 place, vec3 point, float extinction) {
+// Between an emitting point of the window and the other. Without visibility: the haze of the
+// point's own box, `extinction`, all the way.
+float transmittanceTo(Window window, vec3 place, vec3 point, float extinction) {
     vec3 way = place - point;
     float reach = length(way);
     if (kVisibility == 0u) {
         return exp(-extinction * reach);
     }
-    if (isHidden(place, point)) {
+    if (isHidden(window, place, point)) {
         return 0.0;
     }
-    MediaSpan span = mediaSpan(Ray(point, way / reach), reach);
+    HazeSpan span = hazeSpan(Ray(point, way / reach), reach);
     return exp(-span.depth);
 }
 
@@ -100,7 +101,8 @@ DirectLight directLight(uint index, vec3 point, float extinction, inout RandomSt
     vec3 way = emitter.place - point;
     DirectLight light = DirectLight(vec3(0.0), way / max(length(way), 1e-20));
     if (emitter.perWatt > 0.0) {
-        light.fluence = emitter.perWatt * transmittanceTo(emitter.place, point, extinction) *
+        light.fluence = emitter.perWatt *
+                        transmittanceTo(window, emitter.place, point, extinction) *
                         window.power * window.colour;
     }
     return light;

@@ -36,8 +36,27 @@ bool isListed(MediaBox box, uint window) {
     return false;
 }
 
+// Whether the media box about a point lists a window.
+bool isListedAt(vec3 point, uint window) {
+    if (sceneTable.mediaNodes == uvec2(0)) {
+        return false;
+    }
+    BoxNodeArray nodes = BoxNodeArray(sceneTable.mediaNodes);
+    uint count = nodes.at[0].next;
+    for (uint walk = 0u; walk < count;) {
+        BoxNode node = nodes.at[walk];
+        bool isInside =
+            all(lessThanEqual(node.lo, point)) && all(lessThan(point, node.hi));
+        if (isInside && node.item != kNone) {
+            return isListed(MediaBoxArray(sceneTable.mediaBoxes).at[node.item], window);
+        }
+        walk = isInside ? walk + 1u : node.next;
+    }
+    return false;
+}
+
 // The part of the span on the bright side of a window, softened by its size.
-AirlightInterval brightInterval(Ray ray, MediaSpan span, Window window) {
+AirlightInterval brightInterval(Ray ray, HazeSpan span, Window window) {
     vec3 fromWindow = ray.origin - window.centre;
     float begin = span.begin;
     float end = span.end;
@@ -64,14 +83,18 @@ AirlightInterval brightInterval(Ray ray, MediaSpan span, Window window) {
 
 // A point of the haze on a ray, a window, and the density of drawing both (1/m).
 struct ScatteringPoint {
-    MediumPoint medium;
+    HazePoint haze;
     uint window;  // or kNone
     float byFlight;
     float byAngle;
 };
 
-float flightDensity(MediumPoint medium, float extinction, MediaSpan span) {
-    return extinction * exp(-medium.depth) / collisionProbability(span.depth);
+LightQuery lightsAlong(Ray ray, HazeSpan span, float nearShare) {
+    return LightQuery(ray, span.begin, span.end, 0.0, nearShare);
+}
+
+float flightDensity(HazePoint haze, HazeSpan span) {
+    return haze.extinction * exp(-haze.depth) / collisionProbability(span.depth);
 }
 
 float angleDensity(AirlightInterval interval, float distance) {
@@ -83,33 +106,27 @@ float angleDensity(AirlightInterval interval, float distance) {
     return interval.h / (airlightArc(interval) * (interval.h * interval.h + u * u));
 }
 
-float extinctionOf(uint box) {
-    return MediaBoxArray(sceneTable.mediaBoxes).at[box].extinction;
-}
-
-ScatteringPoint drawByFlight(Ray ray, MediaSpan span, inout RandomStream random) {
+ScatteringPoint drawByFlight(Ray ray, HazeSpan span, float nearShare, inout RandomStream random) {
     float share = nextRandom(random) * collisionProbability(span.depth);
     ScatteringPoint point;
-    point.medium = mediumAtDepth(ray, span.end, depthOfShare(share));
-    float extinction = extinctionOf(point.medium.box);
-    vec3 place = ray.origin + point.medium.distance * ray.direction;
-    LightChoice light = chooseLight(lightsAt(place, extinction), random);
+    point.haze = hazeAtDepth(ray, span.end, depthOfShare(share));
+    vec3 place = ray.origin + point.haze.distance * ray.direction;
+    LightChoice light = chooseLight(lightsAt(place, point.haze.extinction), random);
     point.window = light.window;
     if (light.window != kNone) {
         Window window = WindowArray(sceneTable.windows).at[light.window];
-        point.byFlight = light.probability * flightDensity(point.medium, extinction, span);
-        point.byAngle = angleDensity(brightInterval(ray, span, window), point.medium.distance);
+        point.byFlight = light.probability * flightDensity(point.haze, span);
+        point.byAngle = angleDensity(brightInterval(ray, span, window), point.haze.distance);
         if (point.byAngle > 0.0) {
-            point.byAngle *=
-                lightProbability(lightsAlong(ray, span.begin, span.end), light.window);
+            point.byAngle *= lightProbability(lightsAlong(ray, span, nearShare), light.window);
         }
     }
     return point;
 }
 
-ScatteringPoint drawByAngle(Ray ray, MediaSpan span, inout RandomStream random) {
+ScatteringPoint drawByAngle(Ray ray, HazeSpan span, float nearShare, inout RandomStream random) {
     ScatteringPoint point;
-    LightChoice light = chooseLight(lightsAlong(ray, span.begin, span.end), random);
+    LightChoice light = chooseLight(lightsAlong(ray, span, nearShare), random);
     point.window = kNone;
     if (light.window == kNone) {
         return point;
@@ -121,42 +138,43 @@ ScatteringPoint drawByAngle(Ray ray, MediaSpan span, inout RandomStream random) 
     }
     float distance = interval.begin +
                      airlightStepOfArc(interval, airlightArc(interval), nextRandom(random));
-    point.medium = mediumAtDistance(ray, distance);
-    if (point.medium.box == kNone) {
+    point.haze = hazeAtDistance(ray, distance);
+    if (point.haze.extinction <= 0.0) {
         return point;
     }
     point.window = light.window;
-    float extinction = extinctionOf(point.medium.box);
     point.byAngle = light.probability * angleDensity(interval, distance);
     point.byFlight =
-        flightDensity(point.medium, extinction, span) *
-        lightProbability(lightsAt(ray.origin + distance * ray.direction, extinction), light.window);
+        flightDensity(point.haze, span) *
+        lightProbability(lightsAt(ray.origin + distance * ray.direction, point.haze.extinction),
+                         light.window);
     return point;
 }
 
-// Radiance, W m^-2 sr^-1. `span` is the haze on the ray up to its surface.
-vec3 inScatteredLight(Ray ray, MediaSpan span, inout RandomStream random) {
+// Radiance, W m^-2 sr^-1. `span` is the haze on the ray up to its surface, `nearShare` the
+// share of choices for nearLights, where they were found for this ray, else 0.
+vec3 inScatteredLight(Ray ray, HazeSpan span, float nearShare, inout RandomStream random) {
     if (span.depth <= 0.0) {
         return vec3(0.0);
     }
     ScatteringPoint point;
     if (nextRandom(random) < 0.5) {
-        point = drawByFlight(ray, span, random);
+        point = drawByFlight(ray, span, nearShare, random);
     } else {
-        point = drawByAngle(ray, span, random);
+        point = drawByAngle(ray, span, nearShare, random);
     }
     if (point.window == kNone) {
         return vec3(0.0);
     }
-    MediaBox box = MediaBoxArray(sceneTable.mediaBoxes).at[point.medium.box];
+    HazePoint haze = point.haze;
+    vec3 place = ray.origin + haze.distance * ray.direction;
     float density = 0.5 * (point.byFlight + point.byAngle);
-    if ((kListed != 0u && !isListed(box, point.window)) || density <= 0.0) {
+    if ((kListed != 0u && !isListedAt(place, point.window)) || density <= 0.0) {
         return vec3(0.0);
     }
-    vec3 place = ray.origin + point.medium.distance * ray.direction;
-    DirectLight light = directLight(point.window, place, box.extinction, random);
+    DirectLight light = directLight(point.window, place, haze.extinction, random);
     float phase = phaseFunction(frameTable.anisotropy, dot(light.direction, ray.direction));
-    return box.extinction * box.albedo * exp(-point.medium.depth) * phase / density * light.fluence;
+    return haze.scattering * exp(-haze.depth) * phase / density * light.fluence;
 }
 
 #endif

@@ -10,6 +10,7 @@
 
 #include "box_interval.glsl"
 #include "camera_ray.glsl"
+#include "occluders.glsl"
 #include "pane.glsl"
 #include "triangle_hit.glsl"
 
@@ -124,27 +125,14 @@ MediaHits mediaAlong(Ray ray, float end, float lastEntry, uint lastBox) {
     return hits;
 }
 
-// Optical depth of the haze on a part of a ray, and where the haze begins and ends.
-struct MediaSpan {
-    float begin;     // m
-    float end;       // m; not after begin where there is no haze
-    float depth;
-    uint firstBox;   // or kNone
-};
-
-// A point on a ray inside a media box.
-struct MediumPoint {
-    float distance;  // m along the ray
-    float depth;     // optical depth up to it
-    uint box;        // or kNone in clear air
-};
-
-// All haze on [0, end) of a ray whose direction is a unit vector.
-MediaSpan mediaSpan(Ray ray, float end) {
-    MediaSpan span = MediaSpan(kFar, 0.0, 0.0, kNone);
+// mediaId of the first media box on [0, end) of a ray, or -1.
+int firstMediaId(Ray ray, float end) {
+    int mediaId = -1;
     if (sceneTable.mediaMask == 0u || end <= 0.0) {
-        return span;
+        return mediaId;
     }
+    float begin = kFar;
+    uint first = kNone;
     vec3 inverse = reciprocal(ray.direction);
     rayQueryEXT query;
     rayQueryInitializeEXT(query, structure, gl_RayFlagsNoneEXT, kMaskMedia, ray.origin, 0.0,
@@ -154,91 +142,42 @@ MediaSpan mediaSpan(Ray ray, float end) {
         MediaBox box = MediaBoxArray(sceneTable.mediaBoxes).at[index];
         float entry, exit;
         boxInterval(ray.origin, ray.direction, inverse, box.lo, box.hi, end, entry, exit);
-        if (entry < exit) {
-            if (before(entry, index, span.begin, span.firstBox)) {
-                span.begin = entry;
-                span.firstBox = index;
-            }
-            span.end = max(span.end, exit);
-            span.depth += box.extinction * (exit - entry);
+        if (entry < exit && before(entry, index, begin, first)) {
+            begin = entry;
+            first = index;
+            mediaId = box.mediaId;
         }
     }
-    return span;
+    return mediaId;
 }
 
-// The point `distance` m along a ray whose direction is a unit vector.
-MediumPoint mediumAtDistance(Ray ray, float distance) {
-    MediumPoint point = MediumPoint(distance, 0.0, kNone);
-    if (sceneTable.mediaMask == 0u) {
-        return point;
-    }
-    vec3 inverse = reciprocal(ray.direction);
-    rayQueryEXT query;
-    rayQueryInitializeEXT(query, structure, gl_RayFlagsNoneEXT, kMaskMedia, ray.origin, 0.0,
-                          ray.direction, distance);
-    while (rayQueryProceedEXT(query)) {
-        uint index = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
-        MediaBox box = MediaBoxArray(sceneTable.mediaBoxes).at[index];
-        float entry, exit;
-        boxInterval(ray.origin, ray.direction, inverse, box.lo, box.hi, distance, entry, exit);
-        if (entry < exit) {
-            point.depth += box.extinction * (exit - entry);
-            point.box = exit == distance ? index : point.box;
-        }
-    }
-    return point;
-}
+// m: a wall that lies no further behind a window's plane counts as reaching in front of it, for
+// floats do not tell on which side of it the emitting point lies.
+const float kOnPlane = 1e-4;
 
-// The point at an optical depth, which must be less than that of [0, end).
-MediumPoint mediumAtDepth(Ray ray, float end, float depth) {
-    MediumPoint point = MediumPoint(0.0, 0.0, kNone);
-    float lastEntry = -1.0;
-    uint lastBox = kNone;
-    for (bool more = true; more;) {
-        MediaHits hits = mediaAlong(ray, end, lastEntry, lastBox);
-        uint found = min(hits.count, kSegmentSlots);
-        for (uint slot = 0; slot < found; ++slot) {
-            float extinction = MediaBoxArray(sceneTable.mediaBoxes).at[hits.box[slot]].extinction;
-            float whole = extinction * (hits.exit[slot] - hits.entry[slot]);
-            if (extinction > 0.0) {
-                point.box = hits.box[slot];
-                point.distance = hits.exit[slot];  // where rounding passes the last box
-            }
-            if (extinction > 0.0 && point.depth + whole >= depth) {
-                float within = max(depth - point.depth, 0.0) / extinction;
-                point.distance = min(hits.entry[slot] + within, hits.exit[slot]);
-                point.depth = depth;
-                return point;
-            }
-            point.depth += whole;
-        }
-        more = hits.count > kSegmentSlots;
-        lastEntry = hits.entry[kSegmentSlots - 1];
-        lastBox = hits.box[kSegmentSlots - 1];
-    }
-    return point;
-}
-
-// A wall hides no emitting point that it comes this near to (m): some stages put
-// panes on their walls to within rounding, on either side.
-const float kEmitterOnWall = 1e-3;
-
-// Whether a wall or the ground stands between an emitting point and another.
-bool isHidden(vec3 emitter, vec3 point) {
+// Whether a wall or the ground stands between an emitting point of a window and another point.
+bool isHidden(Window window, vec3 emitter, vec3 point) {
     if (sceneTable.groundMaterial != kNone &&
         (emitter.z < sceneTable.groundHeight) != (point.z < sceneTable.groundHeight)) {
         return true;
     }
     vec3 way = point - emitter;
     float reach = length(way);
-    if ((sceneTable.surfaceMask & kMaskTriangles) == 0u || reach <= kEmitterOnWall) {
+    if ((sceneTable.surfaceMask & kMaskTriangles) == 0u || reach <= 0.0) {
         return false;
     }
+    vec3 normal = outward(window);
+    vec3 behind = window.centre - kOnPlane * normal;
     rayQueryEXT query;
     rayQueryInitializeEXT(query, structure,
-                          gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, kMaskTriangles,
-                          emitter, kEmitterOnWall, way / reach, reach);
+                          gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
+                          kMaskTriangles, emitter, 0.0, way / reach, reach);
     while (rayQueryProceedEXT(query)) {
+        uint triangle = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
+        uint face = UintArray(sceneTable.triangleFace).at[triangle];
+        if (!isOwnWall(OccluderFaceArray(sceneTable.occluderFaces).at[face], behind, normal)) {
+            rayQueryConfirmIntersectionEXT(query);
+        }
     }
     return rayQueryGetIntersectionTypeEXT(query, true) !=
            gl_RayQueryCommittedIntersectionNoneEXT;

@@ -36,12 +36,6 @@ struct LightGroup {
     uint candidates;  // faces, also those beyond kMostCandidates
 };
 
-// Unit vector, to the bright side; 0 for a sphere, which has none.
-vec3 outward(Window window) {
-    bool isSphere = (window.flags & kWindowSphere) != 0u;
-    return isSphere ? vec3(0.0) : paneNormal(window);
-}
-
 float meanOf(vec3 colour) {
     return (colour.r + colour.g + colour.b) / 3.0;
 }

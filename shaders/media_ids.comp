@@ -15,7 +15,6 @@ void main() {
         return;
     }
     Ray ray = cameraRay(pixelOf(push.firstPixel + index), push.sampleIndex);
-    MediaSpan span = mediaSpan(ray, SurfaceRecordArray(frameTable.surfaces).at[index].depth);
     RayProgressArray(frameTable.progress).at[index].firstMediaId =
-        span.firstBox == kNone ? -1 : MediaBoxArray(sceneTable.mediaBoxes).at[span.firstBox].mediaId;
+        firstMediaId(ray, SurfaceRecordArray(frameTable.surfaces).at[index].depth);
 }

@@ -13,6 +13,12 @@ vec3 paneNormal(Window window) {
     return normalize(cross(window.halfU, window.halfV));
 }
 
+// Unit vector, to the bright side; 0 for a sphere, which has none.
+vec3 outward(Window window) {
+    bool isSphere = (window.flags & kWindowSphere) != 0u;
+    return isSphere ? vec3(0.0) : paneNormal(window);
+}
+
 // Depth where the ray crosses the pane, from either side; negative for a miss. Spheres light
 // the haze but are not seen. halfU and halfV are perpendicular.
 float paneDepth(Ray ray, Window window) {

@@ -56,26 +56,24 @@ RayEnd endOf(Ray ray) {
     return RayEnd(hit.depth, vec3(0.0), vec3(0.0));
 }
 
-MediaSpan hazeOn(Ray ray, float end) {
+HazeSpan hazeOn(Ray ray, float end) {
     if (kMedia == 0u) {
-        return MediaSpan(kFar, 0.0, 0.0, kNone);
+        return HazeSpan(kFar, 0.0, 0.0);
     }
-    return mediaSpan(ray, end);
+    return hazeSpan(ray, end);
 }
 
 // Radiance that a surface reflects of the light straight from a window.
 vec3 reflectedLight(Ray ray, RayEnd end, inout RandomStream random) {
     vec3 point = ray.origin + end.distance * ray.direction;
-    uint box = kNone;
+    float extinction = 0.0;
     if (kMedia != 0u) {
-        MediumPoint medium = mediumAtDistance(ray, end.distance);
-        box = medium.box;
+        HazePoint haze = hazeAtDistance(ray, end.distance);
+        extinction = haze.extinction;
     }
-    float extinction = box == kNone ? 0.0 : extinctionOf(box);
     LightChoice light = chooseLight(lightsAt(point, extinction), random);
-    if (light.window == kNone ||
-        (kListed != 0u &&
-         (box == kNone || !isListed(MediaBoxArray(sceneTable.mediaBoxes).at[box], light.window)))) {
+    vec3 before = point - kOffSurface * ray.direction;
+    if (light.window == kNone || (kListed != 0u && !isListedAt(before, light.window))) {
         return vec3(0.0);
     }
     DirectLight direct =
@@ -84,11 +82,12 @@ vec3 reflectedLight(Ray ray, RayEnd end, inout RandomStream random) {
     return end.reflectance / kPi * received / light.probability * direct.fluence;
 }
 
-Path scattered(Path path, float distance, float albedo, inout RandomStream random) {
+Path scattered(Path path, HazePoint haze, inout RandomStream random) {
     vec2 u = nextRandomPair(random);
-    vec3 origin = path.ray.origin + distance * path.ray.direction;
+    vec3 origin = path.ray.origin + haze.distance * path.ray.direction;
     vec3 direction =
         directionAbout(path.ray.direction, phaseCosine(frameTable.anisotropy, u.x), u.y);
+    float albedo = haze.scattering / haze.extinction;
     return Path(Ray(origin, normalize(direction)), albedo * path.throughput, path.order + 1u);
 }
 
@@ -119,15 +118,13 @@ vec3 walk(Path path, inout RandomStream random) {
     vec3 light = vec3(0.0);
     while (path.order <= frameTable.lastOrder && survives(path, random)) {
         RayEnd end = endOf(path.ray);
-        MediaSpan span = hazeOn(path.ray, end.distance);
+        HazeSpan span = hazeOn(path.ray, end.distance);
         if (wanted(path.order)) {
-            light += path.throughput * inScatteredLight(path.ray, span, random);
+            light += path.throughput * inScatteredLight(path.ray, span, 0.0, random);
         }
         float depth = depthOfShare(nextRandom(random));
         if (depth < span.depth) {
-            MediumPoint medium = mediumAtDepth(path.ray, span.end, depth);
-            float albedo = MediaBoxArray(sceneTable.mediaBoxes).at[medium.box].albedo;
-            path = scattered(path, medium.distance, albedo, random);
+            path = scattered(path, hazeAtDepth(path.ray, span.end, depth), random);
         } else if (end.reflectance != vec3(0.0)) {
             if (wanted(path.order)) {
                 light += path.throughput * reflectedLight(path.ray, end, random);
@@ -141,17 +138,15 @@ vec3 walk(Path path, inout RandomStream random) {
 }
 
 // Of the haze before the first surface.
-vec3 glowOf(Ray ray, MediaSpan span, inout RandomStream random) {
-    vec3 light = wanted(1) ? inScatteredLight(ray, span, random) : vec3(0.0);
+vec3 glowOf(Ray ray, HazeSpan span, float nearShare, inout RandomStream random) {
+    vec3 light = wanted(1) ? inScatteredLight(ray, span, nearShare, random) : vec3(0.0);
     if (frameTable.lastOrder == 1 || span.depth <= 0.0) {
         return light;
     }
     float colliding = collisionProbability(span.depth);
     float depth = depthOfShare(nextRandom(random) * colliding);
-    MediumPoint medium = mediumAtDepth(ray, span.end, depth);
-    float albedo = MediaBoxArray(sceneTable.mediaBoxes).at[medium.box].albedo;
     Path path = Path(ray, vec3(colliding), 1u);
-    return light + walk(scattered(path, medium.distance, albedo, random), random);
+    return light + walk(scattered(path, hazeAtDepth(ray, span.end, depth), random), random);
 }
 
 // Of the first surface, before the haze in front of it.
@@ -163,16 +158,15 @@ vec3 reflectedBy(Ray ray, RayEnd end, inout RandomStream random) {
     return light + walk(reflected(Path(ray, vec3(1.0), 1u), end, random), random);
 }
 
-void finish(uint index, SurfaceRecord surface, MediaSpan span, PathSums sums) {
+void finish(uint index, SurfaceRecord surface, float opticalDepth, int mediaId, PathSums sums) {
     float weight = 1.0 / float(frameTable.paths);
     RayProgress progress;
     progress.lastEntry = 0.0;
     progress.lastBox = kNone;
     progress.segments = 0u;
-    progress.firstMediaId =
-        span.firstBox == kNone ? -1 : MediaBoxArray(sceneTable.mediaBoxes).at[span.firstBox].mediaId;
+    progress.firstMediaId = mediaId;
     progress.glow = weight * sums.glow;
-    progress.opticalDepth = span.depth;
+    progress.opticalDepth = opticalDepth;
     RayProgressArray(frameTable.progress).at[index] = progress;
     // What surfaces emit, and what the dim view shows of them, is part of the first order.
     vec3 seen = wanted(1) ? surface.radiance : vec3(0.0);
@@ -191,7 +185,13 @@ void main() {
     SurfaceRecord surface = SurfaceRecordArray(frameTable.surfaces).at[index];
     RayEnd end = RayEnd(surface.depth * scale, surface.normal,
                         kLit != 0u ? reflectanceOf(surface) : vec3(0.0));
-    MediaSpan span = hazeOn(ray, end.distance);
+    HazeSpan span = hazeOn(ray, end.distance);
+    if (push.round == 0u) {
+        findNearLights(ray, span.begin, span.end);
+        NearLightsArray(frameTable.nearLights).at[index] = nearLights;
+    } else {
+        nearLights = NearLightsArray(frameTable.nearLights).at[index];
+    }
     PathSums sums = PathSums(vec3(0.0), vec3(0.0));
     vec3 squares = vec3(0.0);
     uint first = push.round * kPathsPerDispatch;
@@ -199,7 +199,7 @@ void main() {
     for (uint i = 0; i < count; ++i) {
         uint number = push.sampleIndex * frameTable.paths + first + i;
         RandomStream random = randomStream(pixel, number, frameTable.seed);
-        vec3 glow = glowOf(ray, span, random);
+        vec3 glow = glowOf(ray, span, nearShareOf(nearLights), random);
         sums.glow += glow;
         squares += glow * glow;
         if (end.reflectance != vec3(0.0)) {
@@ -216,7 +216,8 @@ void main() {
     Vec3Array(frameTable.glowSquares).at[index] = squares;
     PathSumsArray(frameTable.pathSums).at[index] = sums;
     if (first + count == frameTable.paths) {
-        finish(index, surface, span, sums);
+        finish(index, surface, span.depth, kMedia == 0u ? -1 : firstMediaId(ray, end.distance),
+               sums);
     }
     countLights(lightSamples);
 }

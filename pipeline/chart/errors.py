@@ -31,12 +31,20 @@ class ErrorStatistics:
     relative_rmse: float
 
 
-def error_statistics(glow: NDArray[np.float64], reference: NDArray[np.float64]) -> ErrorStatistics:
-    """Compare two (N, 3) arrays of glow, W m^-2 sr^-1, of the same pixels; N at least 1."""
+def relative_errors(
+    glow: NDArray[np.float64], reference: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Of each pixel (N,), for two (N, 3) arrays of glow, W m^-2 sr^-1."""
     value, truth = glow @ LUMINANCE, reference @ LUMINANCE
     lit = truth[truth > 0]
     floor = FLOOR_SHARE * float(np.median(lit)) if lit.size else 0.0
-    relative = np.abs(value - truth) / np.maximum(np.maximum(truth, floor), np.finfo(float).tiny)
+    return np.abs(value - truth) / np.maximum(np.maximum(truth, floor), np.finfo(float).tiny)
+
+
+def error_statistics(glow: NDArray[np.float64], reference: NDArray[np.float64]) -> ErrorStatistics:
+    """Compare two (N, 3) arrays of glow, W m^-2 sr^-1, of the same pixels; N at least 1."""
+    value, truth = glow @ LUMINANCE, reference @ LUMINANCE
+    relative = relative_errors(glow, reference)
     mean = float(truth.mean())
     return ErrorStatistics(
         pixels=len(truth),

@@ -1,60 +1,99 @@
 # SPDX-FileCopyrightText: The Nightcity authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of measured rows, as SVG and PNG."""
+"""The rows of a shot as SVG and PNG: numerical and total error against the frame's time."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
 
-if TYPE_CHECKING:
-    from nightcity.chart.speed_accuracy import Row
+from nightcity.chart.paper_table import FRAMES_PER_SECOND
+from nightcity.chart.results import Row
+from nightcity.chart.shot import Shot
 
-_MARKERS = {"steps": ("s", "#c0504d"), "lights": ("o", "#2f6db5")}
-_LABELS = {"steps": "march as the paper has it", "lights": "march, light loop outside"}
+COLOURS = {"march": "#c0504d", "gauss": "#2f6db5", "field": "#2e8b57", "path": "#8064a2"}
+MARKERS = {"march": "s", "gauss": "o", "field": "D", "path": "^"}
+STATISTIC = "p95"
+_TITLES = {"numerical": "against the same model, converged", "total": "against the full model"}
 
 
-def plot_speed_accuracy(rows: Sequence[Row], stem: Path) -> list[Path]:
-    """Draw median and 99th-percentile error against frame time; returns STEM.svg and STEM.png."""
+def front(rows: Sequence[Row], cost: str, error: str) -> list[Row]:
+    """The rows that no other beats in both columns, by rising cost."""
+    best: list[Row] = []
+    for row in sorted(rows, key=lambda row: (row[cost], row[error])):
+        if not best or row[error] < best[-1][error]:
+            best.append(row)
+    return best
+
+
+def plot_speed_accuracy(rows: Sequence[Row], shot: Shot, stem: Path) -> list[Path]:
+    """Draw STEM.svg and STEM.png and return them."""
     plt.rcParams["svg.hashsalt"] = "nightcity"  # the same rows give the same bytes
-    figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
-    for order, (marker, colour) in _MARKERS.items():
-        series = [
-            row for row in rows if row.error and row.setting.name.endswith(f"{order} outside")
-        ]
-        times = [row.timing.steady_frame_ms for row in series]
-        for share, style, name in (("median", "-", "median"), ("p99", ":", "99th percentile")):
-            errors = [100 * getattr(row.error, share) for row in series]
-            label = f"{_LABELS[order]}: {name}"
-            axes.plot(times, errors, style, marker=marker, color=colour, label=label)
-        for row in series:
-            axes.annotate(
-                row.setting.name.split(",")[0].removeprefix("march-"),
-                (row.timing.steady_frame_ms, 100 * row.error.p99),
-                textcoords="offset points",
-                xytext=(6, 5),
-                fontsize=8,
-                color=colour,
-            )
-    surface = next(row.timing.steady_frame_ms for row in rows if row.error is None)
-    axes.axvline(surface, color="0.5", linestyle="--", linewidth=1, label="surface frame")
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="steady frame, ms",
-        ylabel="relative error of the glow, % (same model, converged)",
-        title="Speed against accuracy: steps a segment",
-    )
-    axes.grid(which="both", color="0.9")
-    axes.legend(fontsize=8)
-    paths = [stem.with_suffix(".svg"), stem.with_suffix(".png")]
+    own = [row for row in rows if (row["scene"], row["camera"]) == (shot.scene.name, shot.camera)]
+    figure, both = plt.subplots(1, 2, figsize=(12, 5.4), layout="constrained")
+    for axes, kind in zip(both, _TITLES, strict=True):
+        _draw(axes, own, kind)
+    both[0].set_ylabel("relative error of the glow, 95 of 100 pixels, %")
+    figure.suptitle(f"{shot.scene.name}, {shot.camera}, {shot.size}")
+    handles, labels = both[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=7, fontsize=8)
+    paths = [stem.with_name(f"{stem.name}{ending}") for ending in (".svg", ".png")]
     figure.savefig(paths[0], metadata={"Date": None})
     figure.savefig(paths[1], dpi=120, metadata={"Software": None})
     plt.close(figure)
     return paths
+
+
+def _draw(axes: Axes, rows: Sequence[Row], kind: str) -> None:
+    column = f"{kind}_centre_{STATISTIC}"
+    judged = [row for row in rows if row.get(column)]
+    for method, colour in COLOURS.items():
+        series = [row for row in judged if row["method"] == method]
+        if not series:
+            continue
+        axes.plot(
+            [row["steady_frame_ms"] for row in series],
+            [100 * row[column] for row in series],
+            MARKERS[method],
+            color=colour,
+            label=method,
+            alpha=0.85,
+        )
+    best = front(judged, "steady_frame_ms", column)
+    axes.plot(
+        [row["steady_frame_ms"] for row in best],
+        [100 * row[column] for row in best],
+        *("-",),
+        **{"color": "0.3", "linewidth": 1, "label": "front"},
+    )
+    for row in best:
+        axes.annotate(
+            row["setting"],
+            (row["steady_frame_ms"], 100 * row[column]),
+            textcoords="offset points",
+            xytext=(5, 5),
+            fontsize=7,
+        )
+    _draw_paper(axes, judged, column)
+    surface = next(row["steady_frame_ms"] for row in rows if row["method"] == "surface")
+    axes.axvline(surface, color="0.5", linestyle="--", linewidth=1, label="surface frame")
+    axes.set(xscale="log", yscale="log", xlabel="steady frame, ms", title=_TITLES[kind])
+    axes.grid(which="both", color="0.92")
+
+
+def _draw_paper(axes: Axes, rows: Sequence[Row], column: str) -> None:
+    errors = {row["setting"]: row[column] for row in rows}
+    known = {
+        1000 / rate: 100 * errors[f"march {steps}, steps outside"]
+        for steps, rate in FRAMES_PER_SECOND.items()
+        if f"march {steps}, steps outside" in errors
+    }
+    if known:
+        label = "the paper's Table 1 (RTX 2080), our errors"
+        axes.plot(list(known), list(known.values()), ":x", color="#b8860b", label=label)

@@ -100,16 +100,6 @@ def read_pixels(table: Path) -> PixelTable:
     )
 
 
-def render_pixels(
-    scene: Path, view: list[str], setting: Setting, pixels: str, folder: Path
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Pixels (N, 2) and their glow (N, 3). ``pixels``: a count to choose, or a file of ``x,y``."""
-    table = folder / "pixels.csv"
-    run_renderer([scene, *view, *setting.options, "--pixels", pixels, "--quiet", "-o", table])
-    measured = read_pixels(table)
-    return measured.pixels, measured.glow
-
-
 def write_pixels(pixels: NDArray[np.int64], path: Path) -> Path:
     """Write a file of ``x,y`` lines that nightcity-render reads."""
     path.write_text("x,y\n" + "".join(f"{x},{y}\n" for x, y in pixels))

@@ -14,6 +14,8 @@ from nightcity.city.facades import city_windows
 from nightcity.city.grid_cameras import grid_cameras
 from nightcity.city.heights import BuildingShapes, building_shapes
 from nightcity.city.model import Building, City, FloatArray, LightLists, MediaBox, Mesh
+from nightcity.city.moving_cameras import moving_cameras
+from nightcity.city.night import night_of, with_night
 from nightcity.city.parameters import CityParameters
 from nightcity.city.seeds import Purpose, generator
 from nightcity.city.street_grid import StreetGrid, media_boxes, street_grid
@@ -34,16 +36,19 @@ def generate(parameters: CityParameters) -> City:
     buildings = _buildings(parameters, grid, shapes, textures)
     media = media_boxes(parameters, grid, shapes.heights)
     materials = city_materials(parameters, textures)
+    cameras = grid_cameras(parameters, grid, shapes, buildings)
+    night = night_of(parameters.time, parameters.frames, parameters.office_share, parameters.seed)
     return City(
         name=parameters.name,
-        buildings=tuple(buildings),
+        buildings=tuple(with_night(buildings, night)),
         media=media,
         light_lists=_light_lists(buildings, media),
-        cameras=grid_cameras(parameters, grid, shapes, buildings),
+        cameras=(*cameras, *moving_cameras(cameras, parameters.frames)),
         materials=materials,
         ground_material=len(materials) - 1,
         parameters=_described(parameters),
         resolution=parameters.resolution,
+        frames=parameters.frames,
     )
 
 

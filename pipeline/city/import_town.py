@@ -27,6 +27,8 @@ from nightcity.city.model import (
     Mesh,
     Windows,
 )
+from nightcity.city.moving_cameras import moving_cameras
+from nightcity.city.night import night_of, with_night
 from nightcity.city.seeds import Purpose, generator
 from nightcity.city.street_media import street_media
 from nightcity.city.town_cameras import town_cameras
@@ -68,12 +70,13 @@ def import_town(path: Path, options: TownOptions | None = None) -> City:
     windows = _windows(laid, options)
     media = street_media(corners, options)
     cameras = town_cameras(meshes, laid, windows.light_on, media, space, notes)
+    night = night_of(options.time, options.frames, options.office_share, options.seed)
     return City(
         name=_identifier(path),
-        buildings=_buildings(meshes, laid, windows, options),
+        buildings=tuple(with_night(_buildings(meshes, laid, windows, options), night)),
         media=media,
         light_lists=_light_lists(windows, media),
-        cameras=cameras,
+        cameras=(*cameras, *moving_cameras(cameras, options.frames)),
         materials=_MATERIALS,
         ground_material=_MATERIALS.index(_GROUND),
         origin_offset=origin,
@@ -85,6 +88,7 @@ def import_town(path: Path, options: TownOptions | None = None) -> City:
             "options": dataclasses.asdict(options),
         },
         resolution=options.resolution,
+        frames=options.frames,
         notes=_sentences(notes),
     )
 

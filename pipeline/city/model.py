@@ -53,7 +53,9 @@ class Windows:
 
     centres, half_u, half_v: (N, 3) m; half_u is half the width, half_v half the height, and
     half_u x half_v points outward. power: (N,) W when on. colours: (N, 3) multiply the power.
-    light_on: (N,). ids: (N,) unique in the city, not negative.
+    light_on: (N,) at the first frame. ids: (N,) unique in the city, not negative.
+    switches: (E, 2) the window, a row of these arrays, and the frame from which on it is the other
+    way; by frame, then window, each pair once, after the first frame.
     """
 
     centres: FloatArray
@@ -63,6 +65,7 @@ class Windows:
     colours: FloatArray
     light_on: BoolArray
     ids: IntArray
+    switches: IntArray = field(default_factory=lambda: np.zeros((0, 2), np.int64))
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -97,12 +100,16 @@ class MediaBox:
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole camera; up is z. Position and target in m, vertical field of view in degrees."""
+    """A pinhole camera; up is z. Position and target in m, vertical field of view in degrees.
+
+    track: (F, 6) position and target at each frame of the city, or None where it does not move.
+    """
 
     name: str
     position: tuple[float, float, float]
     target: tuple[float, float, float]
     vertical_fov_degrees: float
+    track: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -125,7 +132,8 @@ class City:
     origin_offset: where the local origin lies in the source's own coordinates (m, double).
     crs: the source's coordinate reference system, or "".
     parameters: what the city was made from, JSON-able, kept as metadata.
-    resolution: default frame, width and height in pixels. notes: what an importer skipped.
+    resolution: default frame, width and height in pixels. frames: how many, counted from 1.
+    notes: what an importer skipped.
     """
 
     name: str
@@ -140,4 +148,5 @@ class City:
     crs: str = ""
     parameters: Mapping[str, object] = field(default_factory=dict)
     resolution: tuple[int, int] = (1920, 1061)
+    frames: int = 1
     notes: tuple[str, ...] = ()

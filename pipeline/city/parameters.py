@@ -30,6 +30,7 @@ from nightcity.city.checked_fields import (
     numbers,
     pair,
 )
+from nightcity.city.night import frames_field, offices_field, time_field
 from nightcity.city.textures import BUILT_IN, accept_texture_names
 from nightcity.city.window_colours import colours_field
 from nightcity.errors import UsageError
@@ -130,13 +131,19 @@ class CityParameters:
         (0.03, 0.03, 0.03), 0, 1, "linear reflectance of the ground"
     )
 
-    seed: int = integer(1, 0, 2**63 - 1, "seed of heights, lit windows, colours and textures")
+    frames: int = frames_field()
+    time: str = time_field()
+    office_share: float = offices_field()
+
+    seed: int = integer(1, 0, 2**63 - 1, "seed of heights, lit windows, colours, textures, night")
     resolution: tuple[int, int] = pair((1920, 1061), 1, 65536, "width and height of pictures, px")
 
     def __post_init__(self) -> None:
         values = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         for name, value in check_values(CityParameters, values).items():
             object.__setattr__(self, name, snap(value) if name in _SNAPPED else value)
+        if self.time and self.frames == 1:
+            raise UsageError("time spans one frame only; give frames")
         self._check_heights()
         self._check_windows()
         self._check_size()

@@ -17,6 +17,7 @@ class Purpose(IntEnum):
     LIT = 3
     COLOURS = 4
     TEXTURES = 5
+    NIGHT = 6
 
 
 def sequence(seed: int, purpose: Purpose) -> np.random.SeedSequence:
@@ -27,3 +28,9 @@ def sequence(seed: int, purpose: Purpose) -> np.random.SeedSequence:
 def generator(seed: int, purpose: Purpose) -> np.random.Generator:
     """One stream."""
     return np.random.Generator(np.random.PCG64(sequence(seed, purpose)))
+
+
+def stream(seed: int, purpose: Purpose, number: int) -> np.random.Generator:
+    """One stream of many for the same purpose."""
+    key = np.random.SeedSequence([seed, int(purpose), number])
+    return np.random.Generator(np.random.PCG64(key))

@@ -22,6 +22,7 @@ from nightcity.city.checked_fields import (
     number,
     pair,
 )
+from nightcity.city.night import frames_field, offices_field, time_field
 from nightcity.city.window_colours import colours_field
 from nightcity.errors import UsageError
 
@@ -89,13 +90,18 @@ class TownOptions:
     cell_size: float = number(20.0, 2, 1000, "edge of a media box in plan", "m")
     extinction: float = number(0.01, 0, 10, "extinction of the haze in the streets", "1/m")
     albedo: float = number(0.9, 0, 1, "albedo of the haze in the streets")
-    seed: int = integer(1, 0, 2**63 - 1, "seed of lit windows, colours and walls")
+    frames: int = frames_field()
+    time: str = time_field()
+    office_share: float = offices_field()
+    seed: int = integer(1, 0, 2**63 - 1, "seed of lit windows, colours, walls and night")
     resolution: tuple[int, int] = pair((1920, 1061), 1, 65536, "width and height of pictures, px")
 
     def __post_init__(self) -> None:
         values = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         for name, value in check_values(TownOptions, values).items():
             object.__setattr__(self, name, value)
+        if self.time and self.frames == 1:
+            raise UsageError("time spans one frame only; give frames")
         if self.window_spacing < self.window_width:
             raise UsageError("window_spacing is below window_width, so windows overlap; raise it")
         if self.floor_height < self.window_height:

@@ -8,7 +8,7 @@ given, so ``PrimWriter`` looks each name up and refuses what no schema of the pr
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -100,6 +100,20 @@ class PrimWriter:
         """Set an attribute of the prim's type or applied schemas; arrays may come from numpy."""
         type_name, variability = _attribute_type(self._type_name, self._schemas, name)
         self._author(name, type_name, value, variability)
+
+    def sample(self, name: str, values: Mapping[int, Any]) -> None:
+        """Set time samples of an attribute that has been set: values by frame."""
+        type_name, _ = _attribute_type(self._type_name, self._schemas, name)
+        self._sample(name, type_name, values)
+
+    def sample_transform(self, values: Mapping[int, Any]) -> None:
+        """As ``sample``, for the matrix that ``place(transform=...)`` has set."""
+        self._sample("xformOp:transform", Sdf.ValueTypeNames.Matrix4d, values)
+
+    def _sample(self, name: str, type_name: Sdf.ValueTypeName, values: Mapping[int, Any]) -> None:
+        path = self.spec.path.AppendProperty(name)
+        for frame, value in values.items():
+            self.spec.layer.SetTimeSample(path, float(frame), _usd_value(type_name, value))
 
     def set_primvar(
         self, name: str, type_name: Sdf.ValueTypeName, value: Any, interpolation: str

@@ -9,7 +9,7 @@ import math
 import numpy as np
 from pxr import Gf, Sdf
 
-from nightcity.city.model import Camera, City
+from nightcity.city.model import Camera, City, FloatArray
 from nightcity.stage import layout
 from nightcity.stage.attributes import PrimWriter
 from nightcity.stage.bounds import city_bounds
@@ -33,7 +33,12 @@ def _write_camera(
     cameras: PrimWriter, camera: Camera, aspect: float, bounds: tuple[np.ndarray, np.ndarray]
 ) -> None:
     prim = PrimWriter(cameras, camera.name, "Camera")
-    prim.place(transform=(Sdf.ValueTypeNames.Matrix4d, _matrix(camera)))
+    line = np.array([[*camera.position, *camera.target]], float)
+    track = line if camera.track is None else camera.track
+    matrices = [_matrix(*place) for place in track.reshape(-1, 2, 3)]
+    prim.place(transform=(Sdf.ValueTypeNames.Matrix4d, matrices[0]))
+    if len(matrices) > 1:
+        prim.sample_transform(dict(enumerate(matrices, start=1)))
     half = math.radians(camera.vertical_fov_degrees) / 2
     prim.set("projection", "perspective")
     prim.set("verticalAperture", _VERTICAL_APERTURE)
@@ -42,17 +47,18 @@ def _write_camera(
     prim.set("focusDistance", math.dist(camera.position, camera.target))
     # Viewers with a linear depth buffer lose the centimetre between a window and its wall when
     # the near plane is close, so it goes out half-way to the city.
-    position = np.array(camera.position, float)
+    positions = track[:, :3]
     lo, hi = bounds
-    near = float(np.linalg.norm(np.maximum(np.maximum(lo - position, position - hi), 0)))
-    far = float(np.linalg.norm(np.maximum(np.abs(position - lo), np.abs(position - hi))))
+    outside = np.maximum(np.maximum(lo - positions, positions - hi), 0)
+    near = float(np.linalg.norm(outside, axis=1).min())
+    farthest = np.maximum(np.abs(positions - lo), np.abs(positions - hi))
+    far = float(np.linalg.norm(farthest, axis=1).max())
     prim.set("clippingRange", Gf.Vec2f(max(0.5 * near, _NEAREST), far + _BEHIND))
 
 
-def _matrix(camera: Camera) -> Gf.Matrix4d:
+def _matrix(position: FloatArray, target: FloatArray) -> Gf.Matrix4d:
     """Camera to world: rows are right, up, back and the position; up is z where it can be."""
-    position = np.array(camera.position, float)
-    back = position - np.array(camera.target, float)
+    back = position - target
     back /= np.linalg.norm(back)
     up = np.array([0.0, 0.0, 1.0])
     right = np.cross(up, back)

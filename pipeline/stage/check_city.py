@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from nightcity.city.model import Building, Camera, City, Material, MediaBox
+from nightcity.city.model import Building, Camera, City, Material, MediaBox, Windows
 from nightcity.errors import SceneError
 from nightcity.stage.attributes import identifier
 
@@ -51,8 +51,9 @@ def check_whole(city: City) -> None:
             "ground_material",
             f"{city.ground_material} is none of {len(city.materials)} materials",
         )
+    _require(city.frames >= 1, "the city", "frames", "must be 1 or more")
     for camera in city.cameras:
-        _check_camera(camera)
+        _check_camera(camera, city.frames)
     _check_light_lists(city)
 
 
@@ -63,6 +64,7 @@ def check_parts(city: City) -> None:
         _require(0 <= building.building_id <= _LARGEST_ID, where, "building_id", "out of range")
         _check_mesh(building, where, len(city.materials))
         _check_windows(building, where)
+        _check_switches(building.windows, where, city.frames)
     for box in city.media:
         _check_media_box(box)
 
@@ -172,6 +174,19 @@ def _check_windows(building: Building, where: str) -> None:
     )
 
 
+def _check_switches(windows: Windows, where: str, frames: int) -> None:
+    row, frame = windows.switches.T
+    _require(((row >= 0) & (row < len(windows))).all(), where, "windows.switches", "no such window")
+    _require(
+        ((frame > 1) & (frame <= frames)).all(),
+        where,
+        "windows.switches",
+        f"must lie after frame 1, up to {frames}",
+    )
+    order = frame * max(len(windows), 1) + row
+    _require((np.diff(order) > 0).all(), where, "windows.switches", "must rise by frame, window")
+
+
 def _check_media_box(box: MediaBox) -> None:
     where = f"media box {box.media_id}"
     _require(0 <= box.media_id <= _LARGEST_ID, where, "media_id", "out of range")
@@ -185,12 +200,16 @@ def _check_media_box(box: MediaBox) -> None:
     _require(0 < box.reach_scale < np.inf, where, "reach_scale", "must be above 0")
 
 
-def _check_camera(camera: Camera) -> None:
+def _check_camera(camera: Camera, frames: int) -> None:
     where = f"camera {camera.name}"
     _require(identifier(camera.name), where, "name", "is no USD identifier")
     line = np.array([camera.position, camera.target], float)
     _require(np.isfinite(line).all(), where, "position and target", "must be finite")
     _require((line[0] != line[1]).any(), where, "target", "must not be the position")
+    if (track := camera.track) is not None:
+        whole = track.shape == (frames, 6) and np.isfinite(track).all()
+        _require(whole, where, "track", f"must be ({frames}, 6) and finite")
+        _require((track[:, :3] != track[:, 3:]).any(axis=1).all(), where, "track", "looks nowhere")
     _require(
         0 < camera.vertical_fov_degrees < 180, where, "vertical_fov_degrees", "must lie in 0 to 180"
     )

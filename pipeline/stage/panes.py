@@ -17,6 +17,7 @@ from nightcity.stage.attributes import PrimWriter
 from nightcity.stage.materials import write_emissive_material
 
 SAME_SIZE = 1e-6  # m; panes are one size where they differ by less
+DARK = 0  # the prototype of windows that are off
 _MOST_COLOURS = 16  # lit prototypes; more colours than that are shown by the nearest of fewer
 _FINEST_LEVELS = 256
 _DEFAULT_SIZE = (1.2, 1.5)  # m, where there is no window
@@ -24,7 +25,7 @@ _DEFAULT_SIZE = (1.2, 1.5)  # m, where there is no window
 
 @dataclass(frozen=True)
 class Panes:
-    """Prototype 0 is dark, prototype 1 + i shows ``colours[i]``; all are of one size.
+    """Prototype DARK is dark, prototype 1 + i shows ``colours[i]``; all are of one size.
 
     size: (2,) width and height, m. colours: (C, 3), the largest channel 1. levels: steps to
     which colours are rounded before they are looked up.
@@ -39,11 +40,10 @@ class Panes:
         names = ["Dark", *(f"Lit_{index}" for index in range(len(self.colours)))]
         return [layout.WINDOW_PROTOTYPES.AppendChild(name) for name in names]
 
-    def indices(self, windows: Windows) -> IntArray:
-        """Which prototype shows each window, (N,)."""
-        shown = _shown(windows.colours, self.levels)
-        nearest = np.argmin(np.abs(shown[:, None] - self.colours[None]).sum(axis=2), axis=1)
-        return np.where(windows.light_on, 1 + nearest, 0)
+    def lit_indices(self, colours: FloatArray) -> IntArray:
+        """Which prototype shows windows of these (N, 3) colours that are on, (N,)."""
+        shown = _shown(colours, self.levels)
+        return 1 + np.argmin(np.abs(shown[:, None] - self.colours[None]).sum(axis=2), axis=1)
 
 
 def choose_panes(batches: Iterable[Windows]) -> Panes:

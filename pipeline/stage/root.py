@@ -24,7 +24,7 @@ PXR_PLUGINPATH_NAME names the folder of Nightcity's schemas, and readable everyw
 def write_root(city: City, layer: Sdf.Layer, sublayers: list[str]) -> None:
     """Write the root layer over ``sublayers``, file names beside it, the strongest first."""
     layer.documentation = _DOCUMENTATION
-    layer.startTimeCode = layer.endTimeCode = 1.0
+    layer.startTimeCode, layer.endTimeCode = 1.0, float(city.frames)
     layer.framesPerSecond = layer.timeCodesPerSecond
     _stack(layer, sublayers)
     root = layout.city_prim(layer, ["NightcityCityAPI"])

@@ -15,7 +15,9 @@ from nightcity.progress import Progress
 from nightcity.stage import layout
 from nightcity.stage.attributes import PrimWriter
 from nightcity.stage.orientation import orientations
-from nightcity.stage.panes import SAME_SIZE, Panes, choose_panes, window_sizes, write_panes
+from nightcity.stage.panes import DARK, SAME_SIZE, Panes, choose_panes, window_sizes, write_panes
+
+FIRST_FRAME = 1  # of every city
 
 
 def write_windows(city: City, layer: Sdf.Layer) -> None:
@@ -46,7 +48,8 @@ def _write_group(group: PrimWriter, buildings: Sequence[Building], panes: Panes)
     if len(windows) == 0:
         return
     turns = orientations(windows.half_u, windows.half_v)
-    shown = panes.indices(windows)
+    lit = panes.lit_indices(windows.colours)
+    shown = np.where(windows.light_on, lit, DARK)
     scales = window_sizes(windows) / panes.size
     scaled = (np.abs(scales - 1) * panes.size > SAME_SIZE).any(axis=1)
     scales = np.column_stack([scales, np.ones(len(windows))])
@@ -71,9 +74,26 @@ def _write_group(group: PrimWriter, buildings: Sequence[Building], panes: Panes)
         prim.set("protoIndices", shown[part])
         prim.set("extent", [lower[part].min(axis=0), upper[part].max(axis=0)])
         prim.set("nightcity:lightOn", _once(windows.light_on[part]))
+        _write_night(prim, building.windows, lit[part])
         prim.set("nightcity:power", _once(windows.power[part]))
         prim.set("nightcity:color", _once(windows.colours[part]))
         prim.set("nightcity:windowSize", size)
+
+
+def _write_night(prim: PrimWriter, windows: Windows, lit: np.ndarray) -> None:
+    """What shines from each frame on at which something changes, and what viewers show of it."""
+    if len(windows.switches) == 0:
+        return
+    row, frame = windows.switches.T
+    frames, place = np.unique(frame, return_inverse=True)
+    changes = np.zeros((len(frames) + 1, len(windows)), dtype=bool)
+    changes[0] = windows.light_on
+    changes[place + 1, row] = True
+    states = np.logical_xor.accumulate(changes)
+    times = [FIRST_FRAME, *frames.tolist()]
+    prim.sample("nightcity:lightOn", dict(zip(times, states, strict=True)))
+    shown = np.where(states, lit, DARK)
+    prim.sample("protoIndices", dict(zip(times, shown, strict=True)))
 
 
 def _once(values: np.ndarray) -> np.ndarray:

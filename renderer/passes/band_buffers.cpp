@@ -1,5 +1,5 @@
-// SPD, first, skipped, count, images-FileCopyrightText: The Nightcity authors
-// SPD, first, skipped, count, images-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
 #include "passes/band_buffers.h"
 
 #include <cstring>
@@ -41,6 +41,7 @@ BandBuffers::BandBuffers(gpu::Device& device, std::uint32_t rays, Method method)
     progress_ = {device, "ray progress", count * sizeof(RayProgress), MemoryKind::device};
     if (method == Method::path) {
         pathSums_ = {device, "path sums", count * sizeof(PathSums), MemoryKind::device};
+        nearLights_ = {device, "near lights", count * sizeof(NearLights), MemoryKind::device};
         glowSquares_ = {device, "squares of glow", count * sizeof(vec3), MemoryKind::device};
     } else if (method != Method::field) {
         segments_ = {device, "segments", count * kSegmentSlots * sizeof(Segment),
@@ -69,6 +70,7 @@ void BandBuffers::prepare(gpu::Commands& commands, FrameTable table,
     table.progress = addressWords(progress_.address());
     if (method_ == Method::path) {
         table.pathSums = addressWords(pathSums_.address());
+        table.nearLights = addressWords(nearLights_.address());
         table.glowSquares = addressWords(glowSquares_.address());
     } else if (method_ != Method::field) {
         table.segments = addressWords(segments_.address());

@@ -52,6 +52,7 @@ private:
     gpu::Buffer progress_;
     gpu::Buffer segments_;
     gpu::Buffer pathSums_;
+    gpu::Buffer nearLights_;
     gpu::Buffer glowSquares_;
     gpu::Buffer pixels_;
     gpu::Buffer samples_;

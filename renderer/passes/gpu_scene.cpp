@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <span>
 
+#include "passes/far_media.h"
+#include "passes/haze_tree.h"
 #include "passes/light_tree.h"
 #include "passes/near_panes.h"
 #include "passes/occluder_tree.h"
@@ -80,6 +82,7 @@ void GpuScene::syncGeometry(const FlatScene& scene) {
     uploadGeometry(scene);
     uploadOccluders(scene);
     uploadMediaTree(scene);
+    uploadHaze(scene);
     buildTriangles(scene);
     buildMedia(scene);
     buildLoosePanes(scene);
@@ -124,6 +127,15 @@ void GpuScene::uploadMediaTree(const FlatScene& scene) {
     uniformHaze_ = nightcity::isHazeUniform(scene);
 }
 
+void GpuScene::uploadHaze(const FlatScene& scene) {
+    const std::vector<FarMedium> haze = mergeMedia(scene);
+    if (haze.empty()) {
+        return;
+    }
+    contents_.haze = uploadArray<FarMedium>("haze", haze);
+    contents_.hazeNodes = uploadArray<HazeNode>("haze tree", buildHazeTree(haze));
+}
+
 void GpuScene::uploadPlanes(const FlatScene& scene, const FacadeTable& facades) {
     const SurfacePlanes planes = findSurfacePlanes(scene, facades);
     contents_.trianglePlane = uploadArray<uint>("planes of triangles", planes.ofTriangle);
@@ -154,6 +166,7 @@ void GpuScene::uploadOccluders(const FlatScene& scene) {
     contents_.occluderNodes = uploadArray<BoxNode>("occluder tree", tree.nodes);
     contents_.occluderFaces = uploadArray<OccluderFace>("occluder faces", tree.faces);
     contents_.occluderCorners = uploadArray<vec3>("occluder corners", tree.corners);
+    contents_.triangleFace = uploadArray<uint>("faces of triangles", tree.faceOfTriangle);
 }
 
 void GpuScene::buildTriangles(const FlatScene& scene) {

@@ -61,6 +61,7 @@ private:
     void uploadGeometry(const FlatScene& scene);
     void uploadOccluders(const FlatScene& scene);
     void uploadMediaTree(const FlatScene& scene);
+    void uploadHaze(const FlatScene& scene);
     void uploadPlanes(const FlatScene& scene, const FacadeTable& facades);
     void uploadNearField(const FlatScene& scene);
     void buildTriangles(const FlatScene& scene);

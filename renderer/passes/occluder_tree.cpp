@@ -52,6 +52,7 @@ OccluderTree buildOccluderTree(const FlatScene& scene) {
     const ConvexFaces faces(scene);
     OccluderTree tree;
     tree.nodes = packBoxTree(BoxTree(faces.bounds()));
+    tree.faceOfTriangle.assign(faces.ofTriangle().begin(), faces.ofTriangle().end());
     for (std::uint32_t i = 0; i < faces.size(); ++i) {
         tree.faces.push_back(faceRecord(faces.face(i), tree.corners.size()));
         for (const glm::dvec3 corner : faces.face(i)) {

@@ -5,6 +5,7 @@
 // a tree of their bounds, their planes, their corners. No Vulkan.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "dispatch.h"
@@ -17,6 +18,7 @@ struct OccluderTree {
     std::vector<BoxNode> nodes;  // the root first; empty without faces
     std::vector<OccluderFace> faces;
     std::vector<vec3> corners;   // m
+    std::vector<std::uint32_t> faceOfTriangle;
 };
 
 OccluderTree buildOccluderTree(const FlatScene& scene);

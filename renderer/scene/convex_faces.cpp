@@ -81,6 +81,7 @@ ConvexFaces::ConvexFaces(const FlatScene& scene) {
             close();
             face.assign(corner.begin(), corner.end());
         }
+        ofTriangle_.push_back(std::uint32_t(size()));
     }
     close();
 }

@@ -28,12 +28,15 @@ public:
         return {corners_.data() + first_[index], corners_.data() + first_[index + 1]};
     }
     std::size_t size() const { return first_.size() - 1; }
+    // The face of each triangle.
+    std::span<const std::uint32_t> ofTriangle() const { return ofTriangle_; }
     // Of each face, m.
     std::vector<Bounds> bounds() const;
 
 private:
     std::vector<glm::dvec3> corners_;
     std::vector<std::uint32_t> first_{0};  // into corners_, one more than faces
+    std::vector<std::uint32_t> ofTriangle_;
 };
 
 // Twice the area times the unit normal, outward, of a face's corners.

@@ -99,6 +99,15 @@ struct BoxNode {
     uint item;  // of a leaf, whose bounds are the item's; kNone: not a leaf
 };
 
+// A node of the tree over haze that cuts space at planes: cells of one node do not overlap, so a
+// ray meets them one after the other. The side below the plane follows its node.
+NIGHTCITY_CONST uint kHazeLeaf = 3u;
+struct HazeNode {
+    float plane;  // m
+    uint axis;    // 0 to 2, or kHazeLeaf
+    uint item;    // the node of the side above; of a leaf what it may hold, or kNone
+};
+
 // An opaque convex face: neighbouring triangles of one plane (renderer/scene/convex_faces.h).
 struct OccluderFace {
     vec3 normal;       // unit vector, outward; 0 for a face without area
@@ -133,6 +142,9 @@ struct SceneTable {
     uvec2 occluderNodes;   // BoxNode over the faces; 0 where nothing is opaque but the ground
     uvec2 occluderFaces;   // OccluderFace
     uvec2 occluderCorners; // vec3, m
+    uvec2 triangleFace;    // uint a triangle: the OccluderFace that it is part of
+    uvec2 haze;            // FarMedium of far_field.h: the media boxes, joined; 0 without haze
+    uvec2 hazeNodes;       // HazeNode over these, the root first
     uvec2 nearField;       // NearTable of glow.h; 0 for methods without
     uvec2 trianglePlane;   // uint a triangle: those of one number lie in one plane
     uvec2 windowPlane;     // uint a window: the same number as the wall behind it
@@ -167,6 +179,7 @@ struct FrameTable {
     uvec2 glowTable;    // GlowTable of glow.h; 0 for methods without
     // Of the path tracer; 0 for other methods.
     uvec2 pathSums;     // PathSums, one a ray of the band
+    uvec2 nearLights;   // NearLights, one a ray of the band
     uvec2 glowSquares;  // vec3, one a pixel of the band: sum over all paths of glow^2
     uvec2 glowError;    // vec3, one a pixel of the band: the standard error of glow
     uvec2 seed;
@@ -212,6 +225,14 @@ struct Segment {
     vec3 start;  // m, relative to the lower corner of the box
     uint box;    // into MediaBox
     vec3 span;   // m, from start to the end
+};
+
+// The windows that are the brightest from one ray, kNone where there are fewer, and how likely
+// each is chosen among them.
+NIGHTCITY_CONST uint kNearLights = 8u;
+struct NearLights {
+    uint window[kNearLights];
+    float chance[kNearLights];
 };
 
 // Over the paths of one pixel sample so far.

@@ -1,20 +1,23 @@
 # SPDX-FileCopyrightText: The Nightcity authors
 # SPDX-License-Identifier: Apache-2.0
-"""The first chart: error statistics by hand, and a small chart made for real."""
+"""The chart: error statistics by hand, and a small chart made for real, killed and gone on with."""
 
 from __future__ import annotations
 
-import csv
-from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from conftest import Command
+from small_chart import CAMERA, make_small_chart, small_stage
 
-from nightcity.chart import speed_accuracy
+from nightcity.chart import kept
 from nightcity.chart.errors import error_statistics
+from nightcity.chart.plot import front
+from nightcity.chart.results import COLUMNS, Row, read_rows
+from nightcity.chart.settings import FULL_POINTS, QUICK_POINTS
+from nightcity.chart.shot import Size
+from nightcity.errors import NightcityError, UsageError
 
 
 def grey(values: list[float]) -> np.ndarray:
@@ -48,27 +51,90 @@ def test_missing_light_is_seen() -> None:
     assert statistics.median == pytest.approx(0.05)
 
 
-def test_small_chart(nightcity: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    stage = tmp_path / "city.usda"
-    nightcity("generate", "--preset", "paper-1x1", "-o", stage)
-    small = replace(
-        speed_accuracy.QUICK, size="96x53", rounds=2, repeats=2, pixels=60, reference_steps=2000
-    )
-    monkeypatch.setattr(speed_accuracy, "QUICK", small)
-    paths = speed_accuracy.chart(stage, tmp_path / "chart", "overview75", quick=True)
-    assert [path.name for path in paths] == [
-        "results.csv",
-        "speed-accuracy.svg",
-        "speed-accuracy.png",
-    ]
-    with paths[0].open(newline="") as lines:
-        rows = {row["setting"]: row for row in csv.DictReader(lines)}
-    assert rows["surface frame"]["median"] == ""
-    assert all(float(row["steady_frame_ms"]) > 0 for row in rows.values())
-    for order in ("steps", "lights"):
-        # More steps, less error: the march converges to the judge.
-        medians = [float(rows[f"march-{n}, {order} outside"]["median"]) for n in (5, 25, 100)]
-        assert medians[0] > medians[1] > medians[2]
-        assert medians[2] < 1e-3
-        assert int(rows[f"march-100, {order} outside"]["light_evaluations"]) > 0
-    assert ElementTree.parse(paths[1]).getroot().tag.endswith("svg")
+def test_settings_are_as_many_as_promised() -> None:
+    assert len(QUICK_POINTS) >= 12 and len({point.method for point in QUICK_POINTS}) >= 3
+    assert len(FULL_POINTS) >= 25
+    assert {point.method for point in FULL_POINTS} == {"march", "gauss", "field", "path"}
+    for points in (QUICK_POINTS, FULL_POINTS):
+        assert len({point.name for point in points}) == len(points)
+
+
+def test_front_is_what_nothing_beats() -> None:
+    points = [(1, 9), (2, 5), (3, 6), (4, 5), (5, 1)]
+    rows: list[Row] = [{"ms": ms, "error": error} for ms, error in points]
+    assert [row["ms"] for row in front(rows, "ms", "error")] == [1, 2, 5]
+
+
+def test_size_names_one_that_divides() -> None:
+    assert str(Size.parse("480x267").judged) == "160x89"
+    with pytest.raises(UsageError, match="480x270"):
+        Size.parse("481x269")
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return make_small_chart(tmp_path_factory.mktemp("chart"))
+
+
+@pytest.fixture(scope="module")
+def rows(made: Path) -> dict[str, Row]:
+    return {row["setting"]: row for row in read_rows(made / "results.csv")}
+
+
+def test_every_row_is_whole(rows: dict[str, Row]) -> None:
+    surface = rows.pop("surface frame")
+    assert surface["numerical_centre_median"] is None
+    for row in rows.values():
+        assert not row["failure"]
+        assert tuple(row) == COLUMNS
+        assert all(row[name] is not None for name in COLUMNS), row["setting"]
+        assert row["steady_frame_ms"] > 0 and row["rounds"] == 2
+
+
+def test_errors_are_what_they_must_be(rows: dict[str, Row]) -> None:
+    # More steps, less error: the march converges to the judge of its own model ...
+    medians = [rows[f"march {n}"]["numerical_centre_median"] for n in (5, 25, 100)]
+    assert medians[0] > medians[1] > medians[2]
+    assert medians[2] < 1e-3
+    # ... and not to the richest, whose light the paper's lists leave out.
+    assert rows["march 100"]["total_centre_bias"] < -0.3
+    # Paths of the full model have noise and no bias beyond it.
+    path = rows["path 16, full"]
+    assert abs(path["total_centre_bias"]) < 4 * path["mean_noise"]
+    assert path["numerical_centre_bias"] == path["total_centre_bias"]
+    # An image through pixel centres is off by what happens within pixels.
+    assert rows["march 100"]["numerical_integrated_median"] > medians[2]
+    assert path["total_flip"] > 0 and rows["march 100"]["numerical_flip"] < path["numerical_flip"]
+
+
+def test_pictures_are_there(made: Path) -> None:
+    stem = f"small.{CAMERA}"
+    assert ElementTree.parse(made / f"{stem}.svg").getroot().tag.endswith("svg")
+    assert (made / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_killed_chart_goes_on(made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = (made / "results.csv").read_bytes()
+    (made / "results.csv").unlink()
+    calls = []
+
+    def refuse(*arguments: object) -> None:
+        calls.append(arguments)
+        raise NightcityError("nothing should be rendered anew")
+
+    monkeypatch.setattr(kept, "run_renderer", refuse)
+    monkeypatch.setattr(kept, "time_frames", refuse)
+    make_small_chart(made.parent)
+    assert (made / "results.csv").read_bytes() == before
+    # Another renderer, or another scene, finds nothing of it.
+    monkeypatch.setattr(kept.Kept, "renderer_hash", "another")
+    with pytest.raises(NightcityError, match="anew"):
+        make_small_chart(made.parent)
+    assert len(calls) == 1
+
+
+def test_command_refuses_what_it_cannot_do(nightcity, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    stage = small_stage(tmp_path)
+    assert "name a scene" in nightcity("chart", "-o", tmp_path / "c", code=2).stderr
+    wrong = nightcity("chart", stage, "-o", tmp_path / "c", "--cameras", "moon", code=2).stderr
+    assert "moon" in wrong and CAMERA in wrong

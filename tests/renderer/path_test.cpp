@@ -295,6 +295,56 @@ TEST(PathPhase, OneLightIsTheIntegralOfItsPhase) {
     }
 }
 
+// A house whose wall is `gap` metres behind its window (in front where negative).
+SceneBuilder houseAndWindow(float gap) {
+    SceneBuilder city;
+    city.addBoxBuilding({-5, -10, 0}, {5, 0, 10}, city.addMaterial(vec3(0.5f)));
+    city.addWindow({0, gap, 4}, {-0.5f, 0, 0}, {0, 0, 0.75f}, 50);
+    city.addMediaBox({-30, 0, 0}, {30, 30, 12}, 0.02f, 0.9f);
+    city.addCamera("along", {-28, 9, 3}, {20, 5, 5}, 30);
+    return city;
+}
+
+TEST(PathSight, OwnWallWithinFiveCentimetresHidesNothing) {
+    RenderProduct product = productOf("along", 6, 4);
+    for (const Emitter emitter : {Emitter::isotropic, Emitter::pane}) {
+        const Model model{Lights::all, Visibility::full, emitter};
+        for (const float gap : {0.0f, -0.04f, -0.06f}) {
+            const FlatScene scene = houseAndWindow(gap).load();
+            const Frame frame = renderOnDevice(scene, product, pathSettings(model, 1024));
+            if (gap < -0.05f) {
+                EXPECT_EQ(sum(frame.glow), 0) << gap;
+                continue;
+            }
+            const Agreement found = agreement(frame, judge(scene, product, model));
+            EXPECT_EQ(found.pixels, 24u) << gap;
+            EXPECT_LT(std::abs(found.bias), 3) << gap;
+            EXPECT_LT(found.worst, largestZ(found.pixels)) << gap;
+        }
+    }
+}
+
+// 2 cm beside one of 401 windows: few paths would meet that one if it were chosen as the others.
+TEST(PathLights, WindowBesideTheRayIsNotMissed) {
+    SceneBuilder city;
+    for (int i = 0; i < 400; ++i) {
+        city.addWindow({float(i % 20) * 3 - 30, 40, float(i / 20) * 2 + 1}, {-0.5f, 0, 0},
+                       {0, 0, 0.5f}, 50, vec3(1), false);
+    }
+    city.addWindow({0, 0, 20.02f}, {-0.5f, 0, 0}, {0, 0, 0.5f}, 50, vec3(1), false);
+    city.addMediaBox({-60, -60, 0}, {60, 60, 50}, 0.01f, 0.9f);
+    city.addCamera("beside", {-40, -1, 20}, {40, 1, 20}, 0.01);
+    const FlatScene scene = city.load();
+    const RenderProduct product = productOf("beside", 4, 4);
+    const Model model{Lights::all, Visibility::full, Emitter::isotropic};
+    const Frame frame = renderOnDevice(scene, product, pathSettings(model, 4096));
+    const Agreement found = agreement(frame, judge(scene, product, model));
+    EXPECT_EQ(found.pixels, 16u);
+    EXPECT_LT(std::abs(found.bias), 3);
+    EXPECT_LT(found.worst, largestZ(found.pixels));
+    EXPECT_LT(found.standardError, 0.01);
+}
+
 TEST_F(PaperPaths, AlbedoZeroScattersNothing) {
     scene_ = paperCity(1, 0.01f, 0).load();
     EXPECT_EQ(sum(render(multiple(), 32).glow), 0);

@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""A chart of the smallest city, for the tests of tables and page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from nightcity.chart import speed_accuracy
+from nightcity.chart.measure import Extent
+from nightcity.chart.settings import FULL, PAPER, field, gauss, march, path
+from nightcity.chart.speed_accuracy import ChartOptions, chart
+from nightcity.chart.truth import Effort
+from nightcity.city.generate import generate
+from nightcity.city.parameters import load_parameters
+from nightcity.stage.write import write_stage
+
+CAMERA = "overview75"
+EXTENT = Extent("96x54", 2, 60, 8, Effort(0.01, 256, 0.1, 16))
+POINTS = (
+    *(march(steps, "steps") for steps in (5, 25)),
+    *(march(steps) for steps in (5, 25, 100)),
+    gauss(PAPER, 0.01),
+    field(0.1),
+    path(FULL, 16),
+)
+
+
+def small_stage(folder: Path) -> Path:
+    """The paper's city of one building."""
+    stage = folder / "small.usda"
+    if not stage.is_file():
+        write_stage(generate(load_parameters("paper-1x1")), stage)
+    return stage
+
+
+def make_small_chart(folder: Path) -> Path:
+    """The chart's folder; one that was made before is gone on with."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(speed_accuracy, "QUICK", EXTENT)
+        patch.setattr(speed_accuracy, "QUICK_POINTS", POINTS)
+        chart([small_stage(folder)], folder / "chart", ChartOptions([CAMERA], None, quick=True))
+    return folder / "chart"
