@@ -7,12 +7,13 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "counters.glsl"
-#include "light_groups.glsl"
+#include "hiding_faces.glsl"
+#include "light_reach.glsl"
 #include "transport/constants.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
-const float kDeepAcross = 0.25;      // optical depth of half a pane that is not taken whole
+const float kDeepAcross = 0.25;  // optical depth of half a pane that is not taken whole
 
 bool isBehindGround(float height, Stretch stretch) {
     if (kVisibility == 0u || sceneTable.groundMaterial == kNone) {
@@ -23,28 +24,29 @@ bool isBehindGround(float height, Stretch stretch) {
     return (height < sceneTable.groundHeight) != (middle < sceneTable.groundHeight);
 }
 
-// Whether any face may hide any of a pane from any of the range.
-bool isShadowed(Window window, Stretch stretch, LightGroup group) {
-    if (group.candidates == 0u || group.candidates > kMostCandidates) {
-        return group.candidates > 0u;
+// t of the part that lies on the bright side of a window, m; empty where x >= y.
+vec2 brightRange(Window window, Stretch stretch) {
+    vec2 range = vec2(0.0, stretch.span);
+    if (kindOf(window) == kEmitterIsotropic) {
+        return range;
     }
-    vec3 begin = beginFrom(stretch, window.centre);
-    Between between =
-        betweenBoxAndStretch(window.centre, abs(window.halfU) + abs(window.halfV), begin,
-                             begin + stretch.span * stretch.direction);
-    for (uint k = 0u; k < group.candidates; ++k) {
-        OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[candidateFaces[k]];
-        if (mayCrossPlane(between, face) &&
-            !isOwnWall(face, window.centre, outward(window))) {
-            return true;
-        }
+    vec3 normal = outward(window);
+    float slack = kBetweenSlack;
+    float atBegin = dot(normal, beginFrom(stretch, window.centre));
+    float slope = dot(normal, stretch.direction);
+    float atEnd = atBegin + slope * stretch.span;
+    if (atBegin <= 0.0 && atEnd <= 0.0) {
+        return vec2(1.0, 0.0);
     }
-    return false;
+    float edge = -atBegin / slope;
+    range.x = atBegin < 0.0 ? max(edge - slack, 0.0) : 0.0;
+    range.y = atEnd < 0.0 ? min(edge + slack, stretch.span) : stretch.span;
+    return range;
 }
 
 // 1/m, as window_light.glsl measures it, of so many pieces along each side; with a spread of
 // 2 two pieces lie about the corners.
-float windowOver(Window window, Stretch stretch, LightGroup group, vec2 range, float pieces,
+float windowOver(Window window, Stretch stretch, Hiders hiders, vec2 range, float pieces,
                  float spread) {
     Emitter emitter;
     emitter.kind = kindOf(window);
@@ -67,7 +69,7 @@ float windowOver(Window window, Stretch stretch, LightGroup group, vec2 range, f
                                   offset + place.x * emitter.halfU + place.y * emitter.halfV, stretch);
         float from = range.x;
         while (from < range.y) {
-            Shadows shadows = shadowsOn(eye, outward(window), group, vec2(from, range.y));
+            Shadows shadows = shadowsOn(eye, hiders, vec2(from, range.y));
             while (from < shadows.horizon) {
                 vec2 seen = firstSeen(shadows);
                 if (seen.y - seen.x > kSliver * stretch.span) {
@@ -82,46 +84,33 @@ float windowOver(Window window, Stretch stretch, LightGroup group, vec2 range, f
 }
 
 // Radiance, W m^-2 sr^-1. `soFar`: the mean of the channels of what is known.
-vec3 windowGlow(uint index, Stretch stretch, LightGroup group, vec2 range, float scale,
-                float soFar) {
+vec3 windowGlow(uint index, Stretch stretch, float scale, float soFar) {
     Window window = WindowArray(sceneTable.windows).at[index];
-    if (isBehindGround(window.centre.z, stretch)) {
+    vec2 range = brightRange(window, stretch);
+    if (!(range.x < range.y) || isBehindGround(window.centre.z, stretch)) {
         return vec3(0.0);
     }
+    Hiders hiders = findHiders(window, stretch, range);
     vec3 power = window.power * window.colour;
     float perWatt = scale * meanOf(power);
     float depthAcross = stretch.extinction * length(window.halfU + window.halfV);
     bool isCut = kindOf(window) == kEmitterPane &&
-                 (depthAcross > kDeepAcross || isShadowed(window, stretch, group));
-    float pieces = isCut ? 2.0 : 1.0;
-    float spread = pieces;
-    float sum = 0.0;
+                 (depthAcross > kDeepAcross || hiders.count > 0u);
+    float sum = windowOver(window, stretch, hiders, range, 1.0, 1.0);
     // Each piece of a pane is seen or hidden as one point of it is: they are halved until that
     // matters no more. What only an edge of the pane sees, or does not, pieces that are
     // put into its corners tell before. Errors of many windows add in squares, hence the root.
-    for (bool isDone = false; !isDone; spread = 1.0) {
-        float before = sum;
-        sum = windowOver(window, stretch, group, range, pieces, spread);
-        float found = perWatt * sum;
+    float spread = 2.0;
+    for (float pieces = 2.0; isCut && pieces <= kMostPanePieces; spread = 1.0) {
+        float next = windowOver(window, stretch, hiders, range, pieces, spread);
+        float found = perWatt * max(sum, next);
         float allowed = kPaneShare * frameTable.tolerance * sqrt(found * (found + soFar));
-        isDone = pieces == 1.0 || (spread == 1.0 && (pieces == kMostPanePieces ||
-                                                     abs(found - perWatt * before) <= allowed));
+        isCut = abs(found - perWatt * min(sum, next)) > allowed;
+        // The whole pane's light is known better than that of its corners.
+        sum = spread == 1.0 || isCut ? next : sum;
         pieces *= spread == 1.0 ? 2.0 : 1.0;
     }
     return scale * power * sum;
-}
-
-vec3 groupGlow(LightGroup group, Stretch stretch, float scale, float soFar) {
-    vec2 range = rangeOf(group, stretch);
-    vec3 glow = vec3(0.0);
-    if (!(range.x < range.y)) {
-        return glow;
-    }
-    for (uint k = 0u; k < group.count; ++k) {
-        uint window = kListed != 0u ? group.node : nextWindow(group);
-        glow += windowGlow(window, stretch, group, range, scale, soFar + meanOf(glow));
-    }
-    return glow;
 }
 
 uint lightSegments = 0u;
@@ -142,15 +131,12 @@ vec3 glowOfAll(Stretch stretch, float scale, float soFar) {
         if (bound <= kLeftOut * frameTable.tolerance * (soFar + meanOf(glow))) {
             continue;
         }
-        if (node.count > kGroupMost) {
-            bool firstNearer = nodeDistance(stretch, index + 1u) <= nodeDistance(stretch, node.child);
-            openNodes[open++] = firstNearer ? node.child : index + 1u;
-            openNodes[open++] = firstNearer ? index + 1u : node.child;
+        if ((node.child & kLightLeaf) == 0u) {
+            openChildren(index, node, stretch, open);
             continue;
         }
-        LightGroup group = groupAbout(node.lo, node.hi, index, node.count, stretch);
-        glow += groupGlow(group, stretch, scale, soFar + meanOf(glow));
-        lightSegments += node.count;
+        glow += windowGlow(node.child & ~kLightLeaf, stretch, scale, soFar + meanOf(glow));
+        ++lightSegments;
     }
     return glow;
 }
@@ -166,8 +152,7 @@ vec3 glowOfListed(Stretch stretch, float scale, float soFar) {
             continue;
         }
         ++lit;
-        LightGroup group = groupOfOne(index, stretch);
-        glow += groupGlow(group, stretch, scale, soFar + meanOf(glow));
+        glow += windowGlow(index, stretch, scale, soFar + meanOf(glow));
     }
     lightSegments += lit;
     return glow;

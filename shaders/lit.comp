@@ -6,7 +6,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "light_groups.glsl"
+#include "hiding_faces.glsl"
+#include "light_reach.glsl"
 #include "primitives.glsl"
 #include "transport/constants.glsl"
 
@@ -70,22 +71,17 @@ bool stands(uint index, SurfacePoint point, vec3 way) {
     return inside;
 }
 
-bool isHidden(Window window, SurfacePoint point, vec3 way, LightGroup group) {
+bool isHidden(SurfacePoint point, vec3 way, Hiders hiders) {
+    bool isHidden = false;
     uint walk = 0u;
-    for (uint k = 0u; k < group.candidates; ++k) {
-        uint face = group.candidates <= kMostCandidates ? candidateFaces[k]
-                                                        : nextOccluder(walk, group.between);
-        if (stands(face, point, way) &&
-            !isOwnWall(OccluderFaceArray(sceneTable.occluderFaces).at[face], window.centre,
-                       outward(window))) {
-            return true;
-        }
+    for (uint k = 0u; k < hiders.count && !isHidden; ++k) {
+        isHidden = stands(hidingFace(hiders, k, walk), point, way);
     }
-    return false;
+    return isHidden;
 }
 
 // m^-2, irradiance of 1 W times pi. `extinction`: about the point, where nothing hides windows.
-float pieceOver(Window window, vec3 offset, SurfacePoint point, LightGroup group,
+float pieceOver(Window window, vec3 offset, SurfacePoint point, Hiders hiders,
                 float extinction) {
     vec3 way = offset - beginFrom(point.stretch, window.centre);
     float d = length(way);
@@ -96,7 +92,7 @@ float pieceOver(Window window, vec3 offset, SurfacePoint point, LightGroup group
         lobe = max(-dot(normalize(cross(window.halfU, window.halfV)), way) / d, 0.0);
     }
     if (received <= 0.0 || lobe <= 0.0 || (isSphere && d < length(window.halfU)) ||
-        isHidden(window, point, way, group)) {
+        isHidden(point, way, hiders)) {
         return 0.0;
     }
     float depth = extinction * d;
@@ -106,8 +102,9 @@ float pieceOver(Window window, vec3 offset, SurfacePoint point, LightGroup group
     return received * lobe * exp(-depth) / (d * d);
 }
 
-float irradianceOf(Window window, SurfacePoint point, LightGroup group, float extinction,
-               float perWatt, float soFar) {
+float irradianceOf(Window window, SurfacePoint point, float extinction, float perWatt,
+                   float soFar) {
+    Hiders hiders = findHiders(window, point.stretch, vec2(0.0));
     bool isPane = kEmitter == kEmitterPane && (window.flags & kWindowSphere) == 0u;
     float most = isPane ? kMostPanePieces : 1.0;
     float mean = 0.0;
@@ -119,7 +116,7 @@ float irradianceOf(Window window, SurfacePoint point, LightGroup group, float ex
             float column = piece - row * pieces;
             vec3 offset = ((2.0 * column + 1.0) / pieces - 1.0) * window.halfU +
                           ((2.0 * row + 1.0) / pieces - 1.0) * window.halfV;
-            sum += pieceOver(window, isPane ? offset : vec3(0.0), point, group, extinction);
+            sum += pieceOver(window, isPane ? offset : vec3(0.0), point, hiders, extinction);
         }
         mean = sum / (pieces * pieces);
         float found = perWatt * mean;
@@ -149,13 +146,13 @@ bool isBelowGround(float height, SurfacePoint point) {
            (height < sceneTable.groundHeight) != (seen < sceneTable.groundHeight);
 }
 
-vec3 fromWindow(uint index, SurfacePoint point, LightGroup group, float extinction, float soFar) {
+vec3 fromWindow(uint index, SurfacePoint point, float extinction, float soFar) {
     Window window = WindowArray(sceneTable.windows).at[index];
     vec3 power = window.power * window.colour;
     if (isBelowGround(window.centre.z, point)) {
         return vec3(0.0);
     }
-    return power * irradianceOf(window, point, group, extinction, meanOf(power), soFar);
+    return power * irradianceOf(window, point, extinction, meanOf(power), soFar);
 }
 
 // Irradiance times pi, W m^-2.
@@ -173,18 +170,11 @@ vec3 fromAll(SurfacePoint point, float extinction) {
         if (mostOf(node, point) * allPower <= kLeftOut * frameTable.tolerance * meanOf(sum)) {
             continue;
         }
-        if (node.count > kGroupMost) {
-            bool firstNearer = nodeDistance(point.stretch, index + 1u) <=
-                               nodeDistance(point.stretch, node.child);
-            openNodes[open++] = firstNearer ? node.child : index + 1u;
-            openNodes[open++] = firstNearer ? index + 1u : node.child;
+        if ((node.child & kLightLeaf) == 0u) {
+            openChildren(index, node, point.stretch, open);
             continue;
         }
-        LightGroup group = groupAbout(node.lo, node.hi, index, node.count, point.stretch);
-        for (uint k = 0u; k < group.count; ++k) {
-            uint window = nextWindow(group);
-            sum += fromWindow(window, point, group, extinction, meanOf(sum));
-        }
+        sum += fromWindow(node.child & ~kLightLeaf, point, extinction, meanOf(sum));
     }
     return sum;
 }
@@ -200,8 +190,7 @@ vec3 fromListed(SurfacePoint point, uint index, float extinction) {
         uint window = UintArray(sceneTable.lightList).at[box.firstLight + k];
         if (isLit(window)) {
             ++lit;
-            LightGroup group = groupOfOne(window, point.stretch);
-            sum += fromWindow(window, point, group, extinction, meanOf(sum));
+            sum += fromWindow(window, point, extinction, meanOf(sum));
         }
     }
     return sum;

@@ -7,6 +7,7 @@
 #ifndef NIGHTCITY_SHADERS_WINDOW_LIGHT_GLSL
 #define NIGHTCITY_SHADERS_WINDOW_LIGHT_GLSL
 
+#include "pane.glsl"
 #include "source_depth.glsl"
 #include "transport/airlight_pane.h"
 #include "visible_parts.glsl"
@@ -22,6 +23,12 @@ struct Emitter {
     float nearest;  // m, radius of a sphere, inside which there is no haze; else 0
 };
 
+uint kindOf(Window window) {
+    return (window.flags & kWindowSphere) != 0u ? kEmitterIsotropic : kEmitter;
+}
+
+const float kMostPanePieces = 16.0;  // along each side of a pane that is seen in part
+const float kPaneShare = 0.5;        // of the tolerance, which such pieces may be off by
 // Optical depth where quadrature is no longer cut into more pieces.
 const float kDepthOfPiece = 2.0;
 const float kMostDepthPieces = 8.0;
