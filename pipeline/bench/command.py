@@ -32,7 +32,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         metavar="TABLE",
         help="without one: time, memory and size of every step, and every method beside the march",
     )
-    for add in (_accuracy, _ladder, _mitsuba):
+    for add in (_accuracy, _ladder, _mitsuba, _growth):
         add(tables)
 
 
@@ -184,6 +184,50 @@ def _mitsuba(tables: argparse._SubParsersAction) -> None:
     table.set_defaults(run=run)
 
 
+def _growth(tables: argparse._SubParsersAction) -> None:
+    table = tables.add_parser(
+        "growth",
+        help="how every step grows with the city, as a table and a chart on logarithmic axes",
+        description="Writes growth.csv, growth.svg and growth.png. A step that fails or takes "
+        "longer than the limit is left out from that city on, and said.",
+    )
+    table.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
+    table.add_argument(
+        "--grids",
+        type=_wholes,
+        default=[4, 8, 16, 30, 60, 100],
+        metavar="N,...",
+        help="cities of N x N buildings (default: 4,8,16,30,60,100)",
+    )
+    table.add_argument(
+        "--preset", default="city-100x100", help="what else they are like (default: %(default)s)"
+    )
+    table.add_argument(
+        "--methods",
+        type=_names,
+        default=["surface", "march", "gauss", "field"],
+        metavar="NAMES",
+        help="frames to time, of surface, march, gauss and field (default: all)",
+    )
+    table.add_argument("--camera", default="overview75", help="(default: %(default)s)")
+    table.add_argument("--size", default="1920x1061", metavar="WIDTHxHEIGHT")
+    table.add_argument(
+        "--limit", type=_number, default=600, metavar="SECONDS", help="a step (default: 600)"
+    )
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.bench.growth import FRAMES, GrowthOptions, growth
+
+        _check("--methods", options.methods, tuple(FRAMES))
+        chosen = GrowthOptions(
+            options.grids, options.preset, options.methods, options.camera, options.size,
+            options.limit,
+        )  # fmt: skip
+        growth(options.output, chosen)
+
+    table.set_defaults(run=run)
+
+
 def _add_scenes(table: argparse.ArgumentParser, usual: str) -> None:
     table.add_argument(
         "scene",
@@ -213,6 +257,16 @@ def _names(text: str) -> list[str]:
 
 def _numbers(text: str) -> list[float]:
     return [_number(part) for part in text.split(",")]
+
+
+def _wholes(text: str) -> list[int]:
+    try:
+        numbers = sorted({int(part) for part in text.split(",")})
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of whole numbers") from None
+    if numbers[0] < 1:
+        raise argparse.ArgumentTypeError(f"{numbers[0]} is below 1")
+    return numbers
 
 
 def _number(text: str) -> float:

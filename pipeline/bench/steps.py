@@ -11,16 +11,12 @@ from __future__ import annotations
 import json
 import os
 import statistics
-import subprocess
-import sys
 import tempfile
-import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
+from nightcity.bench.cost import run_nightcity
 from nightcity.chart.runs import Setting, Timing, time_frames
-from nightcity.errors import NightcityError
 from nightcity.render import run_renderer
 
 _VIEW = ["--camera", "overview75", "--size", "1920x1061"]
@@ -53,17 +49,6 @@ _METHODS = (
 _SCATTER_PASSES = ("march", "gauss", "glow")
 
 
-@dataclass(frozen=True)
-class Cost:
-    """What one process took: wall seconds and peak resident memory in bytes."""
-
-    seconds: float
-    memory: int
-
-    def __str__(self) -> str:
-        return f"{self.seconds:.1f} s, {self.memory / 1e9:.2f} GB"
-
-
 def bench(presets: Sequence[str], towns: Sequence[Path]) -> None:
     """Print what every step costs, for all scenes named, and every method on the first."""
     with tempfile.TemporaryDirectory() as name:
@@ -85,8 +70,8 @@ def bench(presets: Sequence[str], towns: Sequence[Path]) -> None:
 
 def _measure_steps(label: str, command: list[str], folder: Path) -> Path:
     stage, scene = folder / f"{label}.usda", folder / f"{label}.scene"
-    made = _run([*command, "-o", str(stage)])
-    exported = _run(["export", str(stage), "-o", str(scene)])
+    made = run_nightcity([*command, "-o", str(stage)])
+    exported = run_nightcity(["export", str(stage), "-o", str(scene)])
     statistics_file = folder / "statistics.json"
     run_renderer(
         [scene, *_VIEW, "--model", "paper", "--method", "march", "--repeat", str(_REPEATS)]
@@ -109,18 +94,6 @@ def _measure_steps(label: str, command: list[str], folder: Path) -> Path:
 
 def _size(count: int, windows: int) -> str:
     return f"{count / 1e6:.1f} MB ({count / windows:.0f} B a window)"
-
-
-def _run(command: list[str]) -> Cost:
-    start = time.monotonic()
-    process = subprocess.Popen(
-        [sys.executable, "-m", "nightcity", *command], stdout=subprocess.DEVNULL
-    )
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        raise NightcityError(f"nightcity {' '.join(command)} ended with {process.returncode}")
-    return Cost(time.monotonic() - start, usage.ru_maxrss * 1024)
 
 
 def _print_surface_table(label: str, scene: Path, folder: Path) -> None:
