@@ -43,17 +43,22 @@ vec3 brickCorner(FarFieldTable field, FarBrick brick) {
     return field.origin + vec3(brick.cell) * field.cellSide;
 }
 
-bool isInBrick(ivec3 cell, FarBrick brick) {
-    return all(equal(cell >> brick.scale, ivec3(brick.cell) >> brick.scale));
+// The index of a cell of the lattice, as FarFieldTable has it.
+uint indexAt(FarFieldTable field, ivec3 cell) {
+    ivec3 counts = ivec3(field.cellCounts);
+    return UintArray(field.index).at[(cell.z * counts.y + cell.y) * counts.x + cell.x];
+}
+
+uint brickOfIndex(uint word) {
+    return word == kNone ? kNone : word & ((1u << kScaleShift) - 1u);
 }
 
 // Into the bricks; kNone outside the lattice and where there is no haze.
 uint brickAt(FarFieldTable field, ivec3 cell) {
-    ivec3 counts = ivec3(field.cellCounts);
-    if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, counts))) {
+    if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(field.cellCounts)))) {
         return kNone;
     }
-    return UintArray(field.index).at[(cell.z * counts.y + cell.y) * counts.x + cell.x];
+    return brickOfIndex(indexAt(field, cell));
 }
 
 // In nodeUnit.

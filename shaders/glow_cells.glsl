@@ -12,7 +12,6 @@
 #include "primitives.glsl"
 
 NIGHTCITY_ARRAY(GlowSampleArray, GlowSample)
-NIGHTCITY_ARRAY(GlowRoundArray, GlowRound)
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer GlowReference {
     GlowTable table;
@@ -64,48 +63,39 @@ uint bitOf(ivec2 at) {
     return 1u << uint(within.y * int(kGlowCell) + within.x);
 }
 
-// Asks for the glow along a pixel's ray in this round, unless it was asked for before.
-void askFor(ivec2 at, GlowTable table, uint round) {
-    uint bit = bitOf(at);
+// Asks for the glow along a pixel's ray.
+void askFor(ivec2 at, GlowTable table) {
     uint cell = (uint(at.y) / kGlowCell) * table.columnCells + uint(at.x) / kGlowCell;
-    if ((atomicOr(UintArray(table.cells).at[cell], bit) & bit) != 0u) {
-        return;
-    }
-    uint slot = atomicAdd(GlowRoundArray(table.rounds).at[round].count, 1u);
-    if (slot % kGroupSize == 0u) {
-        atomicAdd(GlowRoundArray(table.rounds).at[round].groups, 1u);
-    }
-    UintArray(table.lists).at[round * table.capacity + slot] = pixelIndex(at);
+    atomicOr(UintArray(table.cells).at[cell], bitOf(at));
+}
+
+// Which pixels of a cell are in the frame.
+uint pixelsWithin(CellSpan span) {
+    ivec2 within = min(span.last - span.first, ivec2(kGlowCell - 1u));
+    uint columns = (2u << uint(within.x)) - 1u;
+    uint rows = (2u << uint(4 * within.y + 3)) - 1u;
+    return columns * 0x1111u & rows;
 }
 
 // Asks for those pixels of a cell, as its own.
-void askForOwn(ivec2 cell, uint pixels, GlowTable table, uint round) {
-    CellSpan span = cellSpan(cell, table);
-    ivec2 within = min(span.last - span.first, ivec2(kGlowCell - 1u));
-    for (int y = 0; y <= within.y; ++y) {
-        for (int x = 0; x <= within.x; ++x) {
-            ivec2 at = span.first + ivec2(x, y);
-            if ((pixels & bitOf(at)) != 0u) {
-                askFor(at, table, round);
-            }
-        }
-    }
+void askForOwn(ivec2 cell, uint pixels, GlowTable table) {
     uint index = uint(cell.y) * table.columnCells + uint(cell.x);
-    atomicOr(UintArray(table.cells).at[index], pixels << kOwnPixels);
+    atomicOr(UintArray(table.cells).at[index],
+             pixels << kOwnPixels | (pixels & pixelsWithin(cellSpan(cell, table))));
 }
 
 bool isClipped(CellSpan span) {
     return any(lessThan(span.last - span.first, ivec2(kGlowCell)));
 }
 
-// Asks for the corners of the cell's quarters: every other pixel, those of its right and lower
-// side too. Of a cell at the border of the frame, for all pixels.
-void askForMore(ivec2 cell, GlowTable table, uint round) {
+// Asks for the corners of a whole cell's quarters: every other pixel, those of its right and
+// lower side too.
+void askForMore(ivec2 cell, GlowTable table) {
     CellSpan span = cellSpan(cell, table);
-    askForOwn(cell, isClipped(span) ? kAllPixels : kEvenPixels, table, round);
+    askForOwn(cell, kEvenPixels, table);
     for (int k = 0; k <= int(kGlowCell); k += 2) {
-        askFor(min(span.first + ivec2(kGlowCell, k), span.last), table, round);
-        askFor(min(span.first + ivec2(k, kGlowCell), span.last), table, round);
+        askFor(min(span.first + ivec2(kGlowCell, k), span.last), table);
+        askFor(min(span.first + ivec2(k, kGlowCell), span.last), table);
     }
 }
 

@@ -70,7 +70,8 @@ void compositeMixed(ivec2 cell, uint own, GlowTable table) {
 void main() {
     GlowTable table = glowTable;
     uint index = gl_GlobalInvocationID.x;
-    if (index >= table.columnCells * table.rowCells) {
+    bool isComplete = UintArray(table.paneCounter).at[0] <= table.paneCapacity;
+    if (index >= table.columnCells * table.rowCells || !isComplete) {
         return;
     }
     ivec2 cell = ivec2(index % table.columnCells, index / table.columnCells);

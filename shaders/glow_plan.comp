@@ -10,16 +10,39 @@
 
 layout(local_size_x = kGroupSize) in;
 
-bool seesOneFace(ivec2 first, ivec2 last) {
-    uint face = faceSeen(first);
-    for (int y = first.y; y <= last.y; ++y) {
-        for (int x = first.x; x <= last.x; ++x) {
-            if (faceSeen(ivec2(x, y)) != face) {
-                return false;
-            }
+const int kSide = int(kGlowCell) + 1;
+
+// Bit kSide y + x: the pixel (x, y) from the first sees the same face as the one left of it;
+// in the second word, as the one above it.
+uvec2 sameFaces(ivec2 first) {
+    uvec2 same = uvec2(0u);
+    uint above[kSide];
+    for (int y = 0; y < kSide; ++y) {
+        uint left = kNone;
+        for (int x = 0; x < kSide; ++x) {
+            uint face = faceSeen(first + ivec2(x, y));
+            uint bit = 1u << uint(kSide * y + x);
+            same.x |= x > 0 && face == left ? bit : 0u;
+            same.y |= y > 0 && face == above[x] ? bit : 0u;
+            left = face;
+            above[x] = face;
         }
     }
-    return true;
+    return same;
+}
+
+// Whether the pixels from (x, y) to (x + side, y + side) see one face.
+bool isOneFace(uvec2 same, int x, int y, int side) {
+    uint row = ((1u << uint(side)) - 1u) << uint(x + 1);
+    uint rows = 0u;
+    for (int k = 0; k <= side; ++k) {
+        rows |= row << uint(kSide * (y + k));
+    }
+    uint column = 0u;
+    for (int k = 1; k <= side; ++k) {
+        column |= 1u << uint(kSide * (y + k) + x);
+    }
+    return (same.x & rows) == rows && (same.y & column) == column;
 }
 
 void main() {
@@ -30,26 +53,23 @@ void main() {
     }
     ivec2 cell = ivec2(index % table.columnCells, index / table.columnCells);
     CellSpan span = cellSpan(cell, table);
-    askForOwn(cell, 1u, table, 0u);
+    askForOwn(cell, 1u, table);
     if (!isKeptCell(cell, table)) {
         return;
     }
-    if (table.everyPixel != 0u) {
-        askForOwn(cell, kAllPixels, table, 0u);
+    if (table.everyPixel != 0u || isClipped(span)) {
+        askForOwn(cell, kAllPixels, table);
         return;
     }
-    askFor(span.last, table, 0u);
-    askFor(ivec2(span.first.x, span.last.y), table, 0u);
-    askFor(ivec2(span.last.x, span.first.y), table, 0u);
-    if (seesOneFace(span.first, span.last)) {
+    uvec2 same = sameFaces(span.first);
+    if (isOneFace(same, 0, 0, int(kGlowCell))) {
         return;
     }
-    askForMore(cell, table, 0u);
+    askForMore(cell, table);
     for (int quarter = 0; quarter < 4; ++quarter) {
         ivec2 from = ivec2(quarter & 1, quarter >> 1) * 2;
-        ivec2 first = span.first + from;
-        if (!isClipped(span) && !seesOneFace(first, first + 2)) {
-            askForOwn(cell, 0x33u << uint(from.y * int(kGlowCell) + from.x), table, 0u);
+        if (!isOneFace(same, from.x, from.y, 2)) {
+            askForOwn(cell, 0x33u << uint(from.y * int(kGlowCell) + from.x), table);
         }
     }
 }

@@ -59,9 +59,9 @@ void main() {
     }
     if (push.round == 1u) {
         if (own == 1u && isTooBent(cell, table)) {
-            askForMore(cell, table, push.round);
+            askForMore(cell, table);
         }
     } else if (own == kEvenPixels && areQuartersTooBent(cell, table)) {
-        askForOwn(cell, kAllPixels, table, push.round);
+        askForOwn(cell, kAllPixels, table);
     }
 }

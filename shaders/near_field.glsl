@@ -1,25 +1,14 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The near parts of the windows around a piece of a ray, found by a lattice of their own.
+// The near parts of the windows around a piece of a ray, found by the tile of the ray.
 #ifndef NIGHTCITY_SHADERS_NEAR_FIELD_GLSL
 #define NIGHTCITY_SHADERS_NEAR_FIELD_GLSL
 
-#include "lattice_walk.glsl"
-#include "glow.h"
+#include "glow_tile.glsl"
 #include "transport/near_window.h"
 
-NIGHTCITY_ARRAY(NearPaneArray, NearPane)
-
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer NearReference {
-    NearTable table;
-};
-
-#define nearTable NearReference(sceneTable.nearField).table
-
-bool isPaneLit(uint window) {
-    return (UintArray(sceneTable.windowOn).at[window >> 5] >> (window & 31u) & 1u) != 0u;
-}
+layout(constant_id = NIGHTCITY_CONSTANT_SPHERES) const bool kSpheres = false;
 
 // The ray about the pane, its parameter still that of `ray`.
 PaneFrame nearFrame(NearPane pane, Ray ray) {
@@ -34,49 +23,100 @@ PaneFrame nearFrame(NearPane pane, Ray ray) {
     return frame;
 }
 
-// Integral of the near fluence times exp(-extinction (t - begin)) over [begin, end] of the ray,
-// W m^-1, in haze of one extinction. A pane stands in the list of every lattice cell that its half
-// ball touches, and counts in the one where its chord begins. `inverse` is
-// reciprocal(ray.direction); `tolerance` is relative.
-vec3 nearGlow(Ray ray, vec3 inverse, float begin, float end, float extinction, float tolerance) {
+// A piece of a ray in haze of one kind.
+struct NearPiece {
+    Ray ray;           // from where the piece begins: from afar the digits of the way would be lost
+    float span;        // m
+    float extinction;  // 1/m
+    float radius;      // m, the near radius
+    float tolerance;   // relative, as in nearNodes
+};
+
+// Part [at, end) of the tiles' lists of panes.
+struct PaneList {
+    uvec2 panes;  // uint into NearTable.panes
+    uint at, end;
+};
+
+// Goes on to the next pane that may be near the piece: within the near radius, or where
+// isCloseBy, within closeBy. kNone: no more. A loop of its own, so that the threads of a
+// subgroup search while they have nothing to integrate, and then all integrate.
+uint nextPaneBy(inout PaneList list, NearPiece piece, bool isCloseBy) {
+    NearPaneArray panes = NearPaneArray(nearTable.panes);
+    uint found = kNone;
+    while (list.at < list.end && found == kNone) {
+        uint index = UintArray(list.panes).at[list.at];
+        vec3 away = panes.at[index].centre - piece.ray.origin;
+        float reach = isCloseBy ? panes.at[index].closeBy : piece.radius;
+        float along = dot(away, piece.ray.direction);
+        vec3 across = away - along * piece.ray.direction;
+        bool isNear = dot(across, across) < reach * reach && along > -reach &&
+                      along < piece.span + reach;
+        found = isNear ? index : kNone;
+        ++list.at;
+    }
+    return found;
+}
+
+vec3 nearBesidePanes(PaneList list, NearPiece piece) {
     vec3 sum = vec3(0.0);
-    NearTable near = nearTable;
-    Lattice lattice = Lattice(near.origin, near.side, ivec3(near.counts));
-    // From where the piece begins: from afar the digits of the way there would be lost.
-    Ray local = Ray(ray.origin + begin * ray.direction, ray.direction);
-    float span = end - begin;
-    float from = 0.0;
-    LatticeWalk walk = latticeWalk(local, inverse, 0.0, lattice);
-    while (from < span && insideLattice(walk, lattice)) {
-        float to = min(cellExit(walk), span);
-        uint cell = latticeCell(walk, lattice);
-        uint last = UintArray(near.cellStart).at[cell + 1u];
-        for (uint entry = UintArray(near.cellStart).at[cell]; entry < last; ++entry) {
-            uint index = UintArray(near.cellPanes).at[entry];
-            vec3 away = NearPaneArray(near.panes).at[index].centre - local.origin;
-            float along = dot(away, local.direction);
-            vec3 across = away - along * local.direction;
-            if (dot(across, across) >= near.radius * near.radius || !isPaneLit(index)) {
-                continue;
-            }
-            NearPane pane = NearPaneArray(near.panes).at[index];
-            if ((pane.flags & kWindowSphere) != 0u) {
-                vec2 chord = ballChord(-across, along, near.radius, 0.0, span);
-                if (chord.x < chord.y && chord.x >= from && chord.x < to) {
-                    sum += pane.radiance * nearSphere(-away, local.direction, pane.halfU, near.radius,
-                                                      chord, 0.0, extinction);
-                }
-                continue;
-            }
-            PaneFrame frame = nearFrame(pane, local);
-            vec2 chord = nearChord(frame, near.radius, 0.0, span);
-            if (chord.x < chord.y && chord.x >= from && chord.x < to) {
-                sum += pane.radiance *
-                       nearWindow(frame, near.radius, chord, 0.0, extinction, tolerance);
-            }
+    for (uint index = nextPaneBy(list, piece, false); index != kNone;
+         index = nextPaneBy(list, piece, false)) {
+        NearPane pane = NearPaneArray(nearTable.panes).at[index];
+        PaneFrame frame = nearFrame(pane, piece.ray);
+        vec2 chord = nearChord(frame, piece.radius, 0.0, piece.span);
+        NearPass pass = nearPass(frame, chord, 0.0);
+        if (chord.x < chord.y && pass.sides > kNearCutSides &&
+            (!kSpheres || (pane.flags & kWindowSphere) == 0u)) {
+            sum += pane.radiance *
+                   nearBeside(pass, frame, piece.radius, piece.extinction, piece.tolerance);
         }
-        from = to;
-        stepOn(walk);
+    }
+    return sum;
+}
+
+vec3 nearEdgesOfPanes(PaneList list, NearPiece piece) {
+    vec3 sum = vec3(0.0);
+    for (uint index = nextPaneBy(list, piece, true); index != kNone;
+         index = nextPaneBy(list, piece, true)) {
+        NearPane pane = NearPaneArray(nearTable.panes).at[index];
+        PaneFrame frame = nearFrame(pane, piece.ray);
+        vec2 chord = nearChord(frame, piece.radius, 0.0, piece.span);
+        NearPass pass = nearPass(frame, chord, 0.0);
+        if (chord.x < chord.y && pass.sides <= kNearCutSides &&
+            (!kSpheres || (pane.flags & kWindowSphere) == 0u)) {
+            sum += pane.radiance *
+                   nearAtEdges(pass, frame, piece.radius, piece.extinction, piece.tolerance);
+        }
+    }
+    return sum;
+}
+
+vec3 nearSpheres(PaneList list, NearPiece piece) {
+    vec3 sum = vec3(0.0);
+    for (uint index = nextPaneBy(list, piece, false); index != kNone;
+         index = nextPaneBy(list, piece, false)) {
+        NearPane pane = NearPaneArray(nearTable.panes).at[index];
+        vec3 from = piece.ray.origin - pane.centre;
+        float along = -dot(from, piece.ray.direction);
+        vec2 chord = ballChord(from + along * piece.ray.direction, along, piece.radius, 0.0,
+                               piece.span);
+        if (chord.x < chord.y && (pane.flags & kWindowSphere) != 0u) {
+            sum += pane.radiance * nearSphere(from, piece.ray.direction, pane.halfU, piece.radius,
+                                              chord, 0.0, piece.extinction);
+        }
+    }
+    return sum;
+}
+
+// Integral of the near fluence times exp(-extinction t) over the piece, W m^-1, of all panes
+// around a ray of the tile.
+vec3 nearGlow(NearPiece piece, uint tile, GlowTable table) {
+    GlowTile found = GlowTileArray(table.tiles).at[tile];
+    PaneList list = PaneList(table.tilePanes, found.firstPane, found.firstPane + found.paneCount);
+    vec3 sum = nearBesidePanes(list, piece) + nearEdgesOfPanes(list, piece);
+    if (kSpheres) {
+        sum += nearSpheres(list, piece);
     }
     return sum;
 }

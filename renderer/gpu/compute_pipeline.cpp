@@ -159,10 +159,4 @@ void ComputePipeline::dispatch(VkCommandBuffer commands, const void* pushConstan
     vkCmdDispatch(commands, groups, 1, 1);
 }
 
-void ComputePipeline::dispatchIndirect(VkCommandBuffer commands, const void* pushConstants,
-                                       const Buffer& groups, uint64_t offset) const {
-    bind(commands, pushConstants);
-    vkCmdDispatchIndirect(commands, groups.get(), offset);
-}
-
 }  // namespace nightcity::gpu

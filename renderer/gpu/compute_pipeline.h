@@ -41,9 +41,6 @@ public:
     void bindBuffers(const Binding& binding, const Buffer& buffer, uint64_t bytesEach);
 
     void dispatch(VkCommandBuffer commands, const void* pushConstants, uint32_t groups) const;
-    // As many groups as the VkDispatchIndirectCommand `offset` bytes into `groups` says.
-    void dispatchIndirect(VkCommandBuffer commands, const void* pushConstants,
-                          const Buffer& groups, uint64_t offset) const;
 
 private:
     void createLayout(Device& device, const ComputePipelineInfo& info);

@@ -183,7 +183,9 @@ double chooseRadius(const FarLayout& layout, const BrickTree& tree, const FarDet
 void addBrick(FarLayout& layout, uvec3 cell, uint scale, const BoxTree& media) {
     const uvec3 last = glm::min(cell + (1u << scale), layout.counts) - 1u;
     visitCells({cell, last}, layout.counts,
-               [&](std::size_t c) { layout.index[c] = uint(layout.bricks.size()); });
+               [&](std::size_t c) {
+                   layout.index[c] = uint(layout.bricks.size()) | scale << kScaleShift;
+               });
     const auto first = layout.mediumList.size();
     media.visitTouching({glm::dvec3(cell), glm::dvec3(last)},
                         [&](uint medium) { layout.mediumList.push_back(medium); });

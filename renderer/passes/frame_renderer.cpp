@@ -11,9 +11,9 @@
 namespace nightcity {
 namespace {
 
-// raster, surface, lit, traverse, march or gauss; or raster, surface, media ids, three rounds of
-// plan and glow, composite
-constexpr std::uint32_t kSpansPerBatch = 10;
+// surface, lit, traverse, march or gauss; or surface, media ids, three rounds of plan, tiles and
+// glow, composite
+constexpr std::uint32_t kSpansPerBatch = 12;
 // Pixels of a band: about 100 MiB of records and images.
 constexpr std::uint32_t kBandPixels = 1u << 18;
 // Of --method field, whose records are smaller and whose bands overlap.
@@ -59,6 +59,7 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
         return choice;
     }
     if (settings.method == Method::field) {
+        choice.hasSpheres = scene.hasSpheres();
         return choice;
     }
     if (settings.method == Method::path) {
@@ -155,6 +156,7 @@ FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera
 void FrameRenderer::renderSample(Work& work, const PushConstants& push,
                                  const std::function<void(double)>& progress) {
     const bool last = push.sampleIndex + 1 == work.samples.size();
+    rasterise(work, push);
     if (pipelines_->choice.task != kTaskRecords) {
         surfaceSample(work, push, last);
     } else if (work.settings.method == Method::field) {
@@ -221,7 +223,8 @@ void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderProduct&
         pipelines_ = std::make_unique<PassPipelines>(device_, choice);
         glow_.reset();
         if (choice.method == Method::field && choice.task == kTaskRecords) {
-            glow_ = std::make_unique<GlowPasses>(device_, commands_, choice.aovs);
+            glow_ = std::make_unique<GlowPasses>(device_, commands_, choice.aovs,
+                                                 choice.hasSpheres);
         }
         bound_ = false;
     }
@@ -257,7 +260,11 @@ void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
                       raster_.serves(work.scene, product.width, product.height);
     table.proposals = work.rasterised ? raster_.prepare(product.width, product.height) : uvec2(0);
     if (glow_) {
-        glow_->reserve(rays);
+        std::uint32_t rows = 0;
+        for (const Band& band : work.bands) {
+            rows = std::max(rows, band.glow.rows);
+        }
+        glow_->reserve(product.width, rows);
         glow_->clearBand();
         table.glowTable = addressWords(glow_->tableAddress());
     }
@@ -285,35 +292,40 @@ void FrameRenderer::warmUp(const GpuScene& scene) {
     });
 }
 
-void FrameRenderer::recordSurface(VkCommandBuffer commands, const Work& work,
-                                  const PushConstants& push) {
+// Of all bands, where nothing was proposed for this sample yet. A batch of its own: behind a
+// drawing in the same batch lavapipe takes the times of dispatches before they have run.
+void FrameRenderer::rasterise(Work& work, const PushConstants& push) {
     // The proposals of one sample serve all bands; those of several replace each other.
     const bool oneSample = work.samples.size() == 1;
-    if (work.rasterised && (push.firstPixel == work.bands.front().firstPixel || !oneSample)) {
-        FrameRows rows{work.table.width, work.table.height, 0, work.table.height};
-        if (!work.listed) {
-            const Band& last = work.bands.back();
-            const std::uint64_t count = oneSample ? last.firstPixel - push.firstPixel + last.pixels
-                                                  : push.pixelCount;
-            rows.first = push.firstPixel / rows.width;
-            rows.count =
-                static_cast<std::uint32_t>((push.firstPixel + count - 1) / rows.width) + 1 - rows.first;
-        }
-        const vec2 offset = glm::abs(work.samples[push.sampleIndex]);
+    if (!work.rasterised || (push.firstPixel != work.bands.front().firstPixel && oneSample)) {
+        return;
+    }
+    FrameRows rows{work.table.width, work.table.height, 0, work.table.height};
+    if (!work.listed) {
+        const Band& last = work.bands.back();
+        const std::uint64_t count =
+            oneSample ? last.firstPixel - push.firstPixel + last.pixels : push.pixelCount;
+        rows.first = push.firstPixel / rows.width;
+        rows.count =
+            static_cast<std::uint32_t>((push.firstPixel + count - 1) / rows.width) + 1 - rows.first;
+    }
+    const vec2 offset = glm::abs(work.samples[push.sampleIndex]);
+    const double milliseconds = commands_.run("raster", [&](VkCommandBuffer commands) {
+        timestamps_.begin(commands);
         timestamps_.span(commands, "raster", [&] {
             raster_.record(commands, work.scene, push, work.table.camera, rows,
                            std::max(offset.x, offset.y));
         });
         gpu::computeBarrier(commands);
-    }
-    dispatch(commands, "surface", pipelines_->surface, push);
+    });
+    collectTimes(work.cost, milliseconds);
 }
 
 void FrameRenderer::surfaceSample(Work& work, const PushConstants& push, bool last) {
     const double milliseconds = commands_.run("surface frame", [&](VkCommandBuffer commands) {
         timestamps_.begin(commands);
         gpu::computeBarrier(commands);
-        recordSurface(commands, work, push);
+        dispatch(commands, "surface", pipelines_->surface, push);
         if (last) {
             band_->images().recordReadback(commands);
         }
@@ -330,7 +342,7 @@ void FrameRenderer::tracePaths(Work& work, PushConstants push,
             vkCmdFillBuffer(commands, band_->counters().buffer().get(), 0, sizeof(PassCounters), 0);
             gpu::computeBarrier(commands);
             if (push.round == 0) {
-                recordSurface(commands, work, push);
+                dispatch(commands, "surface", pipelines_->surface, push);
             }
             dispatch(commands, "path", pipelines_->path, push);
             band_->counters().recordReadback(commands);
@@ -352,7 +364,7 @@ void FrameRenderer::scatterSample(Work& work, PushConstants push) {
             vkCmdFillBuffer(commands, counterBuffer, 0, sizeof(PassCounters), 0);
             gpu::computeBarrier(commands);
             if (push.round == 0) {
-                recordSurface(commands, work, push);
+                dispatch(commands, "surface", pipelines_->surface, push);
                 if (pipelines_->choice.lightsSurfaces()) {
                     dispatch(commands, "lit", pipelines_->lit, push);
                 }
@@ -374,21 +386,24 @@ void FrameRenderer::scatterSample(Work& work, PushConstants push) {
 }
 
 void FrameRenderer::traceGlow(Work& work, const PushConstants& push, bool last) {
-    const double milliseconds = commands_.run("trace", [&](VkCommandBuffer commands) {
-        timestamps_.begin(commands);
-        recordSurface(commands, work, push);
-        if ((pipelines_->choice.aovs & kAovMediaId) != 0) {
-            dispatch(commands, "media ids", pipelines_->mediaIds, push);
-        }
-        glow_->record(commands, push, [&](const char* name, const std::function<void()>& pass) {
-            timestamps_.span(commands, name, pass);
-            gpu::computeBarrier(commands);
+    do {
+        const double milliseconds = commands_.run("trace", [&](VkCommandBuffer commands) {
+            timestamps_.begin(commands);
+            dispatch(commands, "surface", pipelines_->surface, push);
+            if ((pipelines_->choice.aovs & kAovMediaId) != 0) {
+                dispatch(commands, "media ids", pipelines_->mediaIds, push);
+            }
+            glow_->record(commands, push,
+                          [&](const char* name, const std::function<void()>& pass) {
+                              timestamps_.span(commands, name, pass);
+                              gpu::computeBarrier(commands);
+                          });
+            if (last) {
+                band_->images().recordReadback(commands);
+            }
         });
-        if (last) {
-            band_->images().recordReadback(commands);
-        }
-    });
-    collectTimes(work.cost, milliseconds);
+        collectTimes(work.cost, milliseconds);
+    } while (glow_->makeRoom());
 }
 
 void FrameRenderer::accumulateSample(Work& work, const PushConstants& push, bool last) {

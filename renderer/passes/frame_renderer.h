@@ -51,7 +51,7 @@ private:
     void prepareBand(Work& work, const CameraFrame& camera, const RenderProduct& product);
     void warmUp(const GpuScene& scene);
     // Records the pass that finds the surfaces: the raster where it is due, then the rays'.
-    void recordSurface(VkCommandBuffer commands, const Work& work, const PushConstants& push);
+    void rasterise(Work& work, const PushConstants& push);
     void surfaceSample(Work& work, const PushConstants& push, bool last);
     void tracePaths(Work& work, PushConstants push, const std::function<void(double)>& progress);
     void scatterSample(Work& work, PushConstants push);

@@ -7,6 +7,7 @@
 #include "glow_composite_spirv.h"
 #include "glow_plan_spirv.h"
 #include "glow_refine_spirv.h"
+#include "glow_tiles_spirv.h"
 #include "glow_trace_spirv.h"
 #include "passes/gpu_scene.h"
 #include "passes/pass_pipelines.h"
@@ -16,13 +17,19 @@ namespace {
 
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(NearPane) == 64);
-static_assert(sizeof(NearTable) == 3 * 8 + 32);
+static_assert(sizeof(NearTable) == 2 * 8 + 4);
 static_assert(sizeof(GlowSample) == 16);
-static_assert(sizeof(GlowRound) == sizeof(VkDispatchIndirectCommand) + 4);
-static_assert(sizeof(GlowTable) == 4 * 8 + 36);
+static_assert(sizeof(GlowTile) == 12);
+static_assert(sizeof(GlowTable) == 7 * 8 + 44);
 
 std::uint32_t cellsFor(std::uint32_t pixels) {
     return (pixels + kGlowCell - 1) / kGlowCell;
+}
+
+constexpr std::uint32_t kFirstPanes = 1u << 16;  // in the lists of a band
+
+std::uint32_t tilesFor(std::uint32_t cells) {
+    return (cells + kTileCells - 1) / kTileCells;
 }
 
 }  // namespace
@@ -49,46 +56,66 @@ std::vector<GlowBand> glowBands(std::uint32_t width, std::uint32_t height, std::
     return bands;
 }
 
-GlowPasses::GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32_t aovs)
+GlowPasses::GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32_t aovs,
+                       bool hasSpheres)
     : device_(device),
       commands_(commands),
       plan_(makePipeline(device, "glow plan", kGlowPlanSpirv, {})),
-      trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {})),
+      tiles_(makePipeline(device, "glow tiles", kGlowTilesSpirv, {})),
+      trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {}, {hasSpheres ? 1u : 0u})),
       refine_(makePipeline(device, "glow refine", kGlowRefineSpirv, {})),
       composite_(makePipeline(device, "glow composite", kGlowCompositeSpirv, {}, {0, aovs})),
-      rounds_(device, "glow rounds", kGlowRounds * sizeof(GlowRound), gpu::MemoryKind::device,
-              VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT),
+      paneCounter_(device, "glow pane counter", 4),
       table_(device, "glow table", sizeof(GlowTable), gpu::MemoryKind::device) {
-    contents_.rounds = addressWords(rounds_.address());
+    contents_.paneCounter = addressWords(paneCounter_.buffer().address());
+    reservePanes(kFirstPanes);
     clearBand();
 }
 
 void GlowPasses::clearBand() {
-    const GlowRound none[kGlowRounds] = {};
-    commands_.upload(rounds_, none, sizeof none);
     contents_.rows = 0;
     contents_.rowCells = 0;
+    contents_.rowTiles = 0;
     commands_.upload(table_, &contents_, sizeof contents_);
 }
 
-void GlowPasses::reserve(std::uint32_t pixels) {
-    if (pixels <= contents_.capacity) {
+void GlowPasses::reserve(std::uint32_t width, std::uint32_t rows) {
+    const std::uint32_t pixels = width * rows;
+    const std::uint32_t tiles = tilesFor(cellsFor(width)) * tilesFor(cellsFor(rows));
+    if (pixels <= pixels_ && tiles <= tileCount_) {
         return;
     }
-    using gpu::MemoryKind;
-    contents_.capacity = 0;
-    samples_ = {};
-    cells_ = {};
-    lists_ = {};
-    samples_ = {device_, "glow samples", std::uint64_t{pixels} * sizeof(GlowSample),
-                MemoryKind::device};
+    pixels_ = 0;
+    const auto make = [&](gpu::Buffer& buffer, const char* name, std::uint64_t bytes) {
+        buffer = {};
+        buffer = {device_, name, bytes, gpu::MemoryKind::device};
+        return addressWords(buffer.address());
+    };
+    contents_.samples = make(samples_, "glow samples", std::uint64_t{pixels} * sizeof(GlowSample));
     // A cell has at least one pixel.
-    cells_ = {device_, "glow cells", std::uint64_t{pixels} * 4, MemoryKind::device};
-    lists_ = {device_, "glow rays", std::uint64_t{pixels} * 4 * kGlowRounds, MemoryKind::device};
-    contents_.samples = addressWords(samples_.address());
-    contents_.cells = addressWords(cells_.address());
-    contents_.lists = addressWords(lists_.address());
-    contents_.capacity = pixels;
+    contents_.cells = make(cells_, "glow cells", std::uint64_t{pixels} * 4);
+    contents_.traced = make(traced_, "glow cells traced", std::uint64_t{pixels} * 4);
+    contents_.tiles = make(tileTable_, "glow tiles", std::uint64_t{tiles} * sizeof(GlowTile));
+    contents_.tileRays = make(tileRays_, "glow rays", std::uint64_t{tiles} * kTilePixels * 4);
+    pixels_ = pixels;
+    tileCount_ = tiles;
+}
+
+bool GlowPasses::makeRoom() {
+    const std::uint32_t needed = *static_cast<const std::uint32_t*>(paneCounter_.data());
+    if (needed <= contents_.paneCapacity) {
+        return false;
+    }
+    reservePanes(needed + needed / 4);
+    commands_.upload(table_, &contents_, sizeof contents_);
+    return true;
+}
+
+void GlowPasses::reservePanes(std::uint32_t count) {
+    tilePanes_ = {};
+    tilePanes_ = {device_, "glow panes", std::uint64_t{count} * 4, gpu::MemoryKind::device};
+    contents_.tilePanes = addressWords(tilePanes_.address());
+    contents_.paneCapacity = count;
 }
 
 void GlowPasses::setBand(const GlowBand& band, std::uint32_t width, float tolerance,
@@ -96,6 +123,8 @@ void GlowPasses::setBand(const GlowBand& band, std::uint32_t width, float tolera
     contents_.rows = band.rows;
     contents_.columnCells = cellsFor(width);
     contents_.rowCells = cellsFor(band.rows);
+    contents_.columnTiles = tilesFor(contents_.columnCells);
+    contents_.rowTiles = tilesFor(contents_.rowCells);
     contents_.firstRow = band.firstRow;
     contents_.firstKeptCell = (band.firstKeptRow - band.firstRow) / kGlowCell;
     contents_.keptCells =
@@ -106,7 +135,7 @@ void GlowPasses::setBand(const GlowBand& band, std::uint32_t width, float tolera
 }
 
 void GlowPasses::recordWarmUp(VkCommandBuffer commands, const PushConstants& push) const {
-    for (const gpu::ComputePipeline* pipeline : {&plan_, &trace_, &refine_, &composite_}) {
+    for (const gpu::ComputePipeline* pipeline : {&plan_, &tiles_, &trace_, &refine_, &composite_}) {
         pipeline->dispatch(commands, &push, 1);
     }
 }
@@ -114,20 +143,24 @@ void GlowPasses::recordWarmUp(VkCommandBuffer commands, const PushConstants& pus
 void GlowPasses::record(VkCommandBuffer commands, PushConstants push, const Timed& timed) const {
     const std::uint32_t cells = contents_.columnCells * contents_.rowCells;
     const std::uint32_t groups = (cells + kGroupSize - 1) / kGroupSize;
-    const GlowRound empty[kGlowRounds] = {{0, 1, 1, 0}, {0, 1, 1, 0}, {0, 1, 1, 0}};
-    vkCmdUpdateBuffer(commands, rounds_.get(), 0, sizeof empty, empty);
-    vkCmdFillBuffer(commands, cells_.get(), 0, std::uint64_t{cells} * 4, 0);
+    const std::uint32_t tiles = contents_.columnTiles * contents_.rowTiles;
+    for (const gpu::Buffer* masks : {&cells_, &traced_}) {
+        vkCmdFillBuffer(commands, masks->get(), 0, std::uint64_t{cells} * 4, 0);
+    }
+    vkCmdFillBuffer(commands, paneCounter_.buffer().get(), 0, 4, 0);
     gpu::computeBarrier(commands);
     for (push.round = 0; push.round < kGlowRounds; ++push.round) {
         const bool first = push.round == 0;
         timed(first ? "plan" : "refine", [&] {
             (first ? plan_ : refine_).dispatch(commands, &push, groups);
         });
-        timed("glow", [&] {
-            trace_.dispatchIndirect(commands, &push, rounds_, push.round * sizeof(GlowRound));
+        timed("tiles", [&] {
+            tiles_.dispatch(commands, &push, (tiles + kTileGroup - 1) / kTileGroup);
         });
+        timed("glow", [&] { trace_.dispatch(commands, &push, tiles); });
     }
     timed("composite", [&] { composite_.dispatch(commands, &push, groups); });
+    paneCounter_.recordReadback(commands);
 }
 
 }  // namespace nightcity

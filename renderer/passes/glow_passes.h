@@ -14,6 +14,7 @@
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "gpu/compute_pipeline.h"
+#include "gpu/readable_buffer.h"
 #include "settings.h"
 
 namespace nightcity {
@@ -32,11 +33,11 @@ std::vector<GlowBand> glowBands(std::uint32_t width, std::uint32_t height, std::
 
 class GlowPasses {
 public:
-    // `aovs`: images that the composite writes (aovs.h).
-    GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32_t aovs);
+    // `aovs`: images that the composite writes (aovs.h); hasSpheres: windows may be spheres.
+    GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32_t aovs, bool hasSpheres);
 
-    // For bands of at most so many pixels.
-    void reserve(std::uint32_t pixels);
+    // For bands of at most so many pixels a row and rows.
+    void reserve(std::uint32_t width, std::uint32_t rows);
     // Of the GlowTable.
     VkDeviceAddress tableAddress() const { return table_.address(); }
 
@@ -51,11 +52,20 @@ public:
     using Timed = std::function<void(const char*, const std::function<void()>&)>;
     void record(VkCommandBuffer commands, PushConstants push, const Timed& timed) const;
 
+    // After the passes of a band have run: whether its lists of panes did not fit. There is
+    // room then, and the passes are to be recorded anew, from setBand on.
+    bool makeRoom();
+
 private:
+    void reservePanes(std::uint32_t count);
+
     gpu::Device& device_;
     gpu::Commands& commands_;
-    gpu::ComputePipeline plan_, trace_, refine_, composite_;
-    gpu::Buffer samples_, cells_, lists_, rounds_, table_;
+    gpu::ComputePipeline plan_, tiles_, trace_, refine_, composite_;
+    gpu::Buffer samples_, cells_, traced_, tileTable_, tileRays_, tilePanes_;
+    gpu::ReadableBuffer paneCounter_;
+    gpu::Buffer table_;
+    std::uint32_t pixels_ = 0, tileCount_ = 0;  // that there is room for
     GlowTable contents_{};
 };
 

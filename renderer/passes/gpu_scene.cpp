@@ -103,6 +103,9 @@ void GpuScene::uploadGeometry(const FlatScene& scene) {
     contents_.materials = uploadArray("materials", scene.materials);
     contents_.texels = uploadArray("texels", scene.texels);
     contents_.windows = uploadArray("windows", scene.windows);
+    hasSpheres_ = std::any_of(scene.windows.begin(), scene.windows.end(), [](const Window& window) {
+        return (window.flags & kWindowSphere) != 0;
+    });
     contents_.mediaBoxes = uploadArray("media boxes", scene.mediaBoxes);
     contents_.facades = uploadArray<Facade>("facades", facades.facades);
     contents_.cellStart = uploadArray<uint>("facade cell starts", facades.cellStart);
@@ -143,19 +146,20 @@ void GpuScene::uploadPlanes(const FlatScene& scene, const FacadeTable& facades) 
 }
 
 void GpuScene::uploadNearField(const FlatScene& scene) {
-    NearPanes near = buildNearPanes(scene, farField_.table());
+    NearTable table{};
+    table.radius = farField_.table().nearRadius;
+    const NearPanes near = buildNearPanes(scene, table.radius);
     nearField_.clear();
     const auto keep = [&](const char* name, const void* data, std::uint64_t bytes) {
         nearField_.emplace_back(device_, name, bytes, gpu::MemoryKind::device);
         commands_.upload(nearField_.back(), data, bytes);
         return addressWords(nearField_.back().address());
     };
-    near.table.panes = keep("near panes", near.panes.data(), near.panes.size() * sizeof(NearPane));
-    near.table.cellStart = keep("near cell starts", near.cellStart.data(),
-                                near.cellStart.size() * sizeof(uint));
-    near.table.cellPanes = keep("near cell panes", near.cellPanes.data(),
-                                near.cellPanes.size() * sizeof(uint));
-    contents_.nearField = keep("near table", &near.table, sizeof(NearTable));
+    table.panes = keep("near panes", near.panes.data(), near.panes.size() * sizeof(NearPane));
+    if (!near.tree.empty()) {
+        table.tree = keep("near tree", near.tree.data(), near.tree.size() * sizeof(BoxNode));
+    }
+    contents_.nearField = keep("near table", &table, sizeof(NearTable));
 }
 
 void GpuScene::uploadOccluders(const FlatScene& scene) {

@@ -52,6 +52,7 @@ public:
     const std::vector<TriangleChunk>& chunks() const { return chunks_; }
     const FarFieldGrid& farField() const { return farField_; }
     bool isHazeUniform() const { return uniformHaze_; }  // scene/uniform_haze.h
+    bool hasSpheres() const { return hasSpheres_; }      // among the windows
 
 private:
     template <typename T>
@@ -94,6 +95,7 @@ private:
     gpu::Buffer table_;
     SceneTable contents_{};
     bool uniformHaze_ = false;
+    bool hasSpheres_ = false;
 };
 
 // The two words of an address as the shaders take them.

@@ -1,27 +1,24 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which windows' near parts a ray may meet in each cell of a lattice over the far field
+// The windows as their near parts are integrated, and a tree over the places that these reach
 // (shaders/shared/glow.h). Does not depend on which windows are on. No Vulkan.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
-#include "far_field.h"
+#include "dispatch.h"
 #include "glow.h"
 #include "scene/flat_scene.h"
 
 namespace nightcity {
 
 struct NearPanes {
-    NearTable table{};            // the lattice; no addresses
     std::vector<NearPane> panes;  // one a window
-    std::vector<uint> cellStart;  // as the table has them
-    std::vector<uint> cellPanes;
+    std::vector<BoxNode> tree;    // over the part of each one's ball of the radius before it
 };
 
-// `field`: origin, cellSide, cellCounts and nearRadius are read.
-NearPanes buildNearPanes(const FlatScene& scene, const FarFieldTable& field);
+// `radius`: m, the near radius.
+NearPanes buildNearPanes(const FlatScene& scene, float radius);
 
 }  // namespace nightcity

@@ -38,6 +38,8 @@ struct PipelineChoice {
     // Of the path tracer, and of gauss with the pages:
     Model model;
     bool uniformHaze = false;  // scene/uniform_haze.h
+    // Of the field:
+    bool hasSpheres = false;
 
     bool operator==(const PipelineChoice&) const = default;
     // Whether light comes from the packed lists.

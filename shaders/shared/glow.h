@@ -13,8 +13,15 @@
 
 NIGHTCITY_BEGIN
 
+// Specialization constant of glow_trace.comp.
+#define NIGHTCITY_CONSTANT_SPHERES 0  // 1: some windows are spheres
+
 NIGHTCITY_CONST uint kGlowCell = 4u;    // pixels a side of a cell; bit 4 row + column of a mask
 NIGHTCITY_CONST uint kGlowRounds = 3u;  // of choosing rays and integrating along them
+NIGHTCITY_CONST uint kTileCells = 8u;   // cells a side of a tile, whose rays share a list of panes
+NIGHTCITY_CONST uint kTilePixels = kTileCells * kTileCells * kGlowCell * kGlowCell;
+NIGHTCITY_CONST uint kTraceGroup = 32u;  // threads of glow_trace.comp, a group a tile
+NIGHTCITY_CONST uint kTileGroup = 64u;  // threads of glow_tiles.comp, one a tile
 
 // A window as its near part is integrated (transport/near_window.h); one a window.
 struct NearPane {
@@ -25,19 +32,13 @@ struct NearPane {
     vec3 vAxis;
     uint flags;     // of the Window
     vec3 radiance;  // W m^-2 sr^-1 when lit; of a sphere the intensity, W sr^-1
-    uint reserved;  // 0
+    float closeBy;  // m from the centre: a ray farther off passes no edge within kNearCutSides
 };
 
-// The panes whose half balls of the near radius touch cell c of a lattice are
-// cellPanes[cellStart[c]] up to cellPanes[cellStart[c + 1]], exclusive, ascending.
 struct NearTable {
-    uvec2 panes;      // NearPane
-    uvec2 cellStart;  // uint, one more than lattice cells; x fastest
-    uvec2 cellPanes;  // uint into panes
-    vec3 origin;      // m, lower corner of the lattice
-    float side;       // m, of a cell
-    uvec3 counts;     // cells along each axis
-    float radius;     // m, R of transport/near_far_split.h
+    uvec2 panes;   // NearPane
+    uvec2 tree;    // BoxNode over the part of each pane's ball of the near radius before it
+    float radius;  // m, R of transport/near_far_split.h
 };
 
 // What is found along one ray.
@@ -46,10 +47,12 @@ struct GlowSample {
     float depth;    // optical, of all haze before the surface
 };
 
-// Rays chosen in one round: VkDispatchIndirectCommand, then their number.
-struct GlowRound {
-    uint groups, one, alsoOne;
-    uint count;
+// Of kTileCells x kTileCells cells: its rays of this round, and the lit panes whose near parts
+// they may meet: tilePanes[firstPane] and so on.
+struct GlowTile {
+    uint rayCount;
+    uint firstPane;
+    uint paneCount;
 };
 
 // Of a band: whole rows of the frame, the first a multiple of kGlowCell.
@@ -57,12 +60,17 @@ struct GlowTable {
     uvec2 samples;      // GlowSample, one a pixel of the band
     uvec2 cells;        // uint a cell, row by row: low half which of its pixels are integrated
                         // along their rays, high half which of those are its own
-    uvec2 lists;        // uint, capacity a round: pixels of the band
-    uvec2 rounds;       // GlowRound, kGlowRounds of them
-    uint capacity;      // pixels
+    uvec2 traced;       // uint a cell: which of its pixels were integrated in earlier rounds
+    uvec2 tiles;        // GlowTile, row by row
+    uvec2 tileRays;     // uint, kTilePixels a tile: pixels of the band
+    uvec2 tilePanes;    // uint, those of one tile after another: into NearTable.panes
+    uvec2 paneCounter;  // uint: panes of all tiles; may be more than there is room for
+    uint paneCapacity;
     uint rows;          // pixels, of the band
     uint columnCells;   // cells in a row
     uint rowCells;      // cells in a column
+    uint columnTiles;   // tiles in a row
+    uint rowTiles;      // tiles in a column
     uint firstKeptCell; // rows of cells whose pixels are kept: the others serve as neighbours
     uint keptCells;
     uint firstRow;      // of the band in the frame

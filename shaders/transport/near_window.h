@@ -112,16 +112,32 @@ NIGHTCITY_FUNCTION float nearPieces(AirlightInterval i, PaneFrame pane, float ra
     return sum;
 }
 
-// chord: of nearChord, not empty; attenuation along the ray counts from `begin` (m).
-// extinction in 1/m, 0 to 10; tolerance as in nearNodes.
-NIGHTCITY_FUNCTION float nearWindow(PaneFrame pane, float radius, vec2 chord, float begin,
-                                    float extinction, float tolerance) {
-    AirlightInterval i = airlightInterval(pane.origin, pane.direction, chord.x, chord.y);
-    i.begin -= begin;
-    float sides = nearSides(i, pane);
-    int count = nearNodes(sides, tolerance);
-    return sides > kNearCutSides ? nearPiece(i, pane, radius, extinction, count)
-                                 : nearPieces(i, pane, radius, extinction, count);
+// What a pane's near part is along a piece of a ray, up to how it is integrated.
+struct NearPass {
+    AirlightInterval interval;  // about the pane's centre; `begin` from where attenuation counts
+    float sides;                // nearSides
+};
+
+// chord: of nearChord; attenuation along the ray counts from `begin` (m).
+NIGHTCITY_FUNCTION NearPass nearPass(PaneFrame pane, vec2 chord, float begin) {
+    NearPass pass;
+    pass.interval = airlightInterval(pane.origin, pane.direction, chord.x, chord.y);
+    pass.interval.begin -= begin;
+    pass.sides = nearSides(pass.interval, pane);
+    return pass;
+}
+
+// The integral where pass.sides > kNearCutSides. extinction in 1/m, 0 to 10; tolerance as in
+// nearNodes.
+NIGHTCITY_FUNCTION float nearBeside(NearPass pass, PaneFrame pane, float radius, float extinction,
+                                    float tolerance) {
+    return nearPiece(pass.interval, pane, radius, extinction, nearNodes(pass.sides, tolerance));
+}
+
+// The same where the ray passes nearer.
+NIGHTCITY_FUNCTION float nearAtEdges(NearPass pass, PaneFrame pane, float radius, float extinction,
+                                     float tolerance) {
+    return nearPieces(pass.interval, pane, radius, extinction, nearNodes(pass.sides, tolerance));
 }
 
 // Int nearShare(d^2 / R^2) exp(-tau (t + d)) / d^2 dt (1/m) of a sphere of light, about whose

@@ -46,6 +46,12 @@ double solidAngle(glm::dvec3 x, double a, double b) {
            corner(a + x.x, b + x.y);
 }
 
+double nearWindow(const NearCase& c, vec2 chord, float begin, float extinction, float tolerance) {
+    const NearPass pass = nearPass(c.pane, chord, begin);
+    const auto integral = pass.sides > kNearCutSides ? nearBeside : nearAtEdges;
+    return integral(pass, c.pane, float(kRadius), extinction, tolerance);
+}
+
 struct Exact {
     double near, whole;  // m sr: with and without the near share
 };
@@ -81,8 +87,7 @@ ErrorFigures figures(float tolerance, float extinction, int count) {
     for (int i = 0; i < count; ++i) {
         const NearCase c = randomCase(random);
         const Exact exact = exactNear(c, extinction);
-        const double found = nearWindow(c.pane, float(kRadius), c.chord, c.chord.x, extinction,
-                                        tolerance);
+        const double found = nearWindow(c, c.chord, c.chord.x, extinction, tolerance);
         errors.push_back(std::abs(found - exact.near) / exact.whole);
     }
     return errorFigures(errors);
@@ -121,10 +126,10 @@ TEST(NearWindow, IsTheSumOfItsParts) {
     for (int i = 0; i < 300; ++i) {
         const NearCase c = randomCase(random);
         const float middle = 0.5f * (c.chord.x + c.chord.y);
-        const float whole = nearWindow(c.pane, 4, c.chord, 0, 0.01f, 1e-4f);
-        const float parts = nearWindow(c.pane, 4, {c.chord.x, middle}, 0, 0.01f, 1e-4f) +
-                            nearWindow(c.pane, 4, {middle, c.chord.y}, 0, 0.01f, 1e-4f);
-        EXPECT_NEAR(whole, parts, 2e-3f * whole + 1e-5f);
+        const double whole = nearWindow(c, c.chord, 0, 0.01f, 1e-4f);
+        const double parts = nearWindow(c, {c.chord.x, middle}, 0, 0.01f, 1e-4f) +
+                             nearWindow(c, {middle, c.chord.y}, 0, 0.01f, 1e-4f);
+        EXPECT_NEAR(whole, parts, 2e-3 * whole + 1e-5);
     }
 }
 
