@@ -60,9 +60,15 @@ def run_renderer(arguments: Sequence[str | Path]) -> None:
 
 
 def render(stage: Path, options: Sequence[str], keep: Path | None, lists: str) -> int:
-    """``nightcity render``: the renderer's own progress, messages and exit code pass through."""
+    """``nightcity render``: the renderer's own progress, messages and exit code pass through.
+
+    With ``--model auto`` among the options, what they leave open is chosen first.
+    """
     program = renderer()
     with flat_scene(stage, keep, lists) as scene:
+        from nightcity.chart.automatic import chosen_options
+
+        options = chosen_options(scene, options)
         process = subprocess.Popen([*WITH_ITS_PARENT, program, str(scene), *options])
         try:
             return process.wait()

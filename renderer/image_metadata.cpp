@@ -103,6 +103,9 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
 }
 
 void addImage(const ImageOptions& image, ImageFormat format, Entries& entries) {
+    if (!image.choice.empty()) {
+        entries.emplace_back("choice", image.choice);
+    }
     if (format == ImageFormat::png || format == ImageFormat::jpeg) {
         entries.emplace_back("exposure", number(image.exposure));
         entries.emplace_back("toneMap", "Khronos PBR Neutral");

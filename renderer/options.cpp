@@ -222,6 +222,9 @@ void addRun(CLI::App& app, Options& options, bool& quiet) {
     app.add_flag("--list-missing", options.listMissing,
                  "render nothing: list the images that are not there, or not whole, or of other "
                  "settings; exit code 1 if there are any");
+    app.add_option("--choice", options.choice,
+                   "how these settings were chosen, for the image's metadata")
+        ->type_name("TEXT");
     addChoice(app, "--progress", options.progress, "how progress is shown");
     app.add_flag("--quiet", quiet, "no progress, no notes");
 }

@@ -37,6 +37,7 @@ struct Options {
     bool skipExisting = false;
     bool listMissing = false;               // instead of rendering
     ProgressStyle progress = ProgressStyle::automatic;
+    std::string choice;                     // for the metadata; empty: none
 };
 
 // Nothing where --help or --version was asked for and answered on `out`. Throws

@@ -124,6 +124,7 @@ private:
         }
         image_.pixels = product_.pixels;
         image_.exposure = options_.exposure;
+        image_.choice = options_.choice;
         image_.aovs = chooseAovs();
         if (options_.settings.method == Method::path && !options_.aovs) {
             image_.aovs = image_.aovs.empty() ? commonAovs() : image_.aovs;

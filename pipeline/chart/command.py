@@ -38,10 +38,19 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--methods", type=lambda text: text.split(","), metavar="NAMES", help="of --stability"
     )
+    command.add_argument(
+        "--compare",
+        type=Path,
+        nargs=2,
+        metavar=("OLD.csv", "NEW.csv"),
+        help="instead, what became slower or less accurate beyond the noise; exit code 1 if any",
+    )
     command.set_defaults(run=_run)
 
 
-def _run(options: argparse.Namespace) -> None:
+def _run(options: argparse.Namespace) -> int:
+    if options.compare:
+        return _compare(options)
     if options.output is None:
         raise UsageError("-o FOLDER is missing: where the chart shall lie")
     if options.stability:
@@ -50,13 +59,26 @@ def _run(options: argparse.Namespace) -> None:
         from nightcity.chart.stability.report import chart_stability
 
         _list_files(chart_stability(options.output, options.methods, options.quick))
-        return
+        return 0
     if options.methods or not options.scenes:
         raise UsageError("name a scene to chart, or give --stability, to which --methods belongs")
     from nightcity.chart.speed_accuracy import ChartOptions, chart
 
     asked = ChartOptions(options.cameras, options.size, options.quick)
     _list_files(chart(options.scenes, options.output, asked))
+    return 0
+
+
+def _compare(options: argparse.Namespace) -> int:
+    if options.scenes or options.output or options.stability:
+        raise UsageError("--compare reads two tables: name no scene, no -o, no --stability")
+    from nightcity.chart.compare import compare
+
+    found = compare(*options.compare)
+    for line in found:
+        print(line)
+    print(f"{len(found)} worse" if found else "nothing is slower or less accurate")
+    return 1 if found else 0
 
 
 def _list_files(paths: list[Path]) -> None:

@@ -13,6 +13,8 @@ from pathlib import Path
 
 from nightcity.chart.kept import Kept
 from nightcity.chart.measure import FULL, QUICK, Extent, ShotResults, measure_shot, planned_work
+from nightcity.chart.needs import find_needs
+from nightcity.chart.needs_text import as_html
 from nightcity.chart.page import write_page
 from nightcity.chart.plot import plot_speed_accuracy
 from nightcity.chart.results import Row, make_rows, write_rows
@@ -95,5 +97,6 @@ def _write(rows: list[Row], results: list[ShotResults], output: Path) -> list[Pa
         )
     ]
     page = output / "index.html"
-    write_page(rows, results, {}, {}, page)
+    needs = {str(each.shot): as_html(find_needs(each), each.shot) for each in results}
+    write_page(rows, results, needs, {}, page)
     return [table, *pictures, page]

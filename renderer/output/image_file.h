@@ -43,6 +43,7 @@ struct ImageOptions {
     float exposure = 0;             // PNG and JPEG: radiance times 2^exposure
     std::vector<glm::uvec2> pixels; // CSV: where the frame's entries lie
     ImageRows rows;                 // EXR
+    std::string choice;             // how the settings were chosen; empty: by hand
 };
 
 // Writes the frame whole or not at all. Throws std::runtime_error naming the file,

@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
 from nightcity.chart import speed_accuracy
 from nightcity.chart.measure import Extent
-from nightcity.chart.settings import FULL, PAPER, field, gauss, march, path
+from nightcity.chart.settings import FULL, PAPER, Point, field, gauss, march, path
 from nightcity.chart.speed_accuracy import ChartOptions, chart
 from nightcity.chart.truth import Effort
 from nightcity.city.generate import generate
@@ -18,14 +19,14 @@ from nightcity.city.parameters import load_parameters
 from nightcity.stage.write import write_stage
 
 CAMERA = "overview75"
-EXTENT = Extent("96x54", 2, 60, 8, Effort(0.01, 256, 0.1, 16))
+EXTENT = Extent("96x54", 2, 40, 4, Effort(0.01, 256, 0.1, 16))
 POINTS = (
     *(march(steps, "steps") for steps in (5, 25)),
     *(march(steps) for steps in (5, 25, 100)),
     gauss(PAPER, 0.01),
-    field(0.1),
     path(FULL, 16),
 )
+EVERY_METHOD = (*POINTS, field(0.1))
 
 
 def small_stage(folder: Path) -> Path:
@@ -36,10 +37,10 @@ def small_stage(folder: Path) -> Path:
     return stage
 
 
-def make_small_chart(folder: Path) -> Path:
+def make_small_chart(folder: Path, points: Sequence[Point] = POINTS) -> Path:
     """The chart's folder; one that was made before is gone on with."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(speed_accuracy, "QUICK", EXTENT)
-        patch.setattr(speed_accuracy, "QUICK_POINTS", POINTS)
+        patch.setattr(speed_accuracy, "QUICK_POINTS", points)
         chart([small_stage(folder)], folder / "chart", ChartOptions([CAMERA], None, quick=True))
     return folder / "chart"

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from small_chart import CAMERA, make_small_chart, small_stage
+from small_chart import CAMERA, EVERY_METHOD, make_small_chart, small_stage
 
 from nightcity.chart import kept
 from nightcity.chart.errors import error_statistics
@@ -73,7 +73,7 @@ def test_size_names_one_that_divides() -> None:
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_small_chart(tmp_path_factory.mktemp("chart"))
+    return make_small_chart(tmp_path_factory.mktemp("chart"), EVERY_METHOD)
 
 
 @pytest.fixture(scope="module")
@@ -124,12 +124,12 @@ def test_a_killed_chart_goes_on(made: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
     monkeypatch.setattr(kept, "run_renderer", refuse)
     monkeypatch.setattr(kept, "time_frames", refuse)
-    make_small_chart(made.parent)
+    make_small_chart(made.parent, EVERY_METHOD)
     assert (made / "results.csv").read_bytes() == before
     # Another renderer, or another scene, finds nothing of it.
     monkeypatch.setattr(kept.Kept, "renderer_hash", "another")
     with pytest.raises(NightcityError, match="anew"):
-        make_small_chart(made.parent)
+        make_small_chart(made.parent, EVERY_METHOD)
     assert len(calls) == 1
 
 

@@ -1,0 +1,164 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""``nightcity render --model auto --tolerance T``: the cheapest settings for a shot, from a few
+hundred of its pixels.
+
+The truth of these pixels is the judge's single scattering and, against the full model, paths of
+the other orders. Models are tried from the cheapest up; what is left of the tolerance beside a
+model's own error is what its method may lose. A model that leaves out too much falls to the next;
+at the end stand paths, as many as their noise asks for.
+
+Nothing here is timed and everything has one seed, so that a farm's tasks choose alike. The pixels
+are those of the scene's first frame.
+"""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import NormalDist
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nightcity.chart.errors import LUMINANCE, relative_errors
+from nightcity.chart.needs import PERCENTILE
+from nightcity.chart.runs import PixelTable, read_pixels, write_pixels
+from nightcity.chart.settings import FULL, PAPER, SINGLE, UNOCCLUDED, Model
+from nightcity.errors import UsageError
+from nightcity.render import run_renderer
+
+PIXELS = 200
+_TRUTH_SAMPLES = 64  # paths a pixel of the orders that the judge does not know
+_PILOT_SAMPLES = 64  # paths a pixel that tell path's noise
+_SAFETY = 1.3  # more paths than the noise of few pixels asks for
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A model and a method that renders it; finest, coarsest: the tolerances that it takes."""
+
+    model: Model
+    method: str
+    finest: float
+    coarsest: float
+
+
+# From the cheapest up, as the charts of the paper's city and of Delft have them.
+CANDIDATES = (
+    Candidate(PAPER, "gauss", 1e-4, 0.1),
+    Candidate(UNOCCLUDED, "gauss", 1e-4, 0.1),
+    Candidate(SINGLE, "field", 1e-3, 0.1),
+    Candidate(SINGLE, "gauss", 1e-4, 0.1),
+)
+# The field keeps its tolerance in most pixels and not beside roof edges: less is asked of it.
+_FIELD_FLOOR = 0.05
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Renderer options, and the sentence that says why."""
+
+    options: tuple[str, ...]
+    reason: str
+
+
+def choose(scene: Path, view: Sequence[str], tolerance: float, against: Model = FULL) -> Choice:
+    """For a flat scene seen with ``view`` (camera and size options of the renderer).
+
+    ``against``: the richest model that counts, FULL or SINGLE. UsageError for a tolerance that is
+    no share from 0.0001 to 1.
+    """
+    if not 1e-4 <= tolerance <= 1:
+        raise UsageError("--model auto: --tolerance must lie from 0.0001 to 1")
+    with tempfile.TemporaryDirectory() as name:
+        sampler = _Sampler(scene, view, Path(name))
+        truth = sampler.exact(SINGLE, tolerance)
+        glow = truth.glow
+        if against == FULL:
+            glow = glow + sampler.paths(FULL, _TRUTH_SAMPLES, "--orders", "2-").glow
+        if not glow.any():
+            return Choice(_options(CANDIDATES[0], 0.1), "no haze is lit in this shot")
+        tried = []
+        for candidate in CANDIDATES:
+            exact = (
+                truth if candidate.model == SINGLE else sampler.exact(candidate.model, tolerance)
+            )
+            errors = relative_errors(exact.glow, glow)
+            error = float(np.percentile(errors, PERCENTILE))
+            tried.append(f"{candidate.model.name} {_percent(error)}")
+            left = _left(candidate, tolerance - error)
+            if left is not None:
+                reason = f"{candidate.model.name} by {candidate.method} at {left:g}"
+                return Choice(_options(candidate, left), _sentence(tolerance, reason, tried))
+        samples = _samples(sampler.paths(against, _PILOT_SAMPLES), glow, tolerance)
+        options = (*against.options, "--method", "path", "--samples", str(samples))
+        reason = f"{against.name} by {samples} paths a pixel"
+        return Choice(options, _sentence(tolerance, reason, tried))
+
+
+def _left(candidate: Candidate, left: float) -> float | None:
+    """The tolerance to ask of the candidate's method; None where it cannot be kept."""
+    finest = _FIELD_FLOOR if candidate.method == "field" else candidate.finest
+    if left < finest:
+        return None
+    digits = 1 - math.floor(math.log10(left))  # two significant digits, rounded down
+    return min(math.floor(left * 10**digits) / 10**digits, candidate.coarsest)
+
+
+def _options(candidate: Candidate, tolerance: float) -> tuple[str, ...]:
+    method = ("--method", candidate.method, "--tolerance", f"{tolerance:g}")
+    return (*candidate.model.options, *method)
+
+
+def _samples(pilot: PixelTable, glow: NDArray[np.float64], tolerance: float) -> int:
+    """Paths a pixel until 95 of 100 pixels are within the tolerance."""
+    assert pilot.glow_error is not None  # Monte Carlo always states it
+    lit = glow @ LUMINANCE > 0
+    sigmas = (pilot.glow_error[lit] @ LUMINANCE) / (glow[lit] @ LUMINANCE)
+    normal = [abs(NormalDist().inv_cdf((i + 0.5) / 40)) for i in range(40)]
+    error = float(np.percentile(np.outer(normal, sigmas), PERCENTILE))
+    needed = _PILOT_SAMPLES * _SAFETY * (error / tolerance) ** 2
+    return max(2, min(math.ceil(needed), 1 << 24))
+
+
+def _sentence(tolerance: float, chosen: str, tried: Sequence[str]) -> str:
+    return (
+        f"auto, {_percent(tolerance)} in {PERCENTILE} of 100 pixels: {chosen} "
+        f"(without noise {', '.join(tried)} off at {PIXELS} pixels)"
+    )
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %" if share < 1 else f"{100 * share:.0f} %"
+
+
+class _Sampler:
+    """Values of the same few pixels, by any model."""
+
+    def __init__(self, scene: Path, view: Sequence[str], work: Path) -> None:
+        self._scene, self._view, self._work = scene, view, work
+        chosen = ("--model", "paper", "--method", "reference", "--subdivisions", "1")
+        pixels = self._render(chosen, str(PIXELS)).pixels
+        self._pixels = str(write_pixels(pixels, work / "chosen.csv"))
+
+    def exact(self, model: Model, tolerance: float) -> PixelTable:
+        """The judge, exact to a tenth of what is asked."""
+        judge = ("--method", "reference", "--tolerance", f"{min(tolerance, 0.1):g}")
+        return self._render((*model.options, *judge), self._pixels)
+
+    def paths(self, model: Model, samples: int, *more: str) -> PixelTable:
+        """Monte Carlo."""
+        return self._render(
+            (*model.options, "--method", "path", "--samples", str(samples), *more), self._pixels
+        )
+
+    def _render(self, options: Sequence[str], pixels: str) -> PixelTable:
+        table = self._work / "values.csv"
+        run_renderer(
+            [self._scene, *self._view, *options, "--pixels", pixels, "--quiet", "-o", table]
+        )
+        return read_pixels(table)

@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: The Nightcity authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a scene needs, in plain words: HTML for the page."""
+
+from __future__ import annotations
+
+import shlex
+from html import escape
+
+from nightcity.chart.needs import Change, Needs, Recommendation
+from nightcity.chart.settings import FULL
+from nightcity.chart.shot import Shot
+
+
+def as_html(needs: Needs, shot: Shot) -> str:
+    """A table of switches, and a paragraph with a command for each tolerance."""
+    rows = "".join(_switch_row(change) for change in needs.changes)
+    head = "".join(
+        f'<th scope="col">{text}</th>'
+        for text in (
+            "without",
+            "glow changes by",
+            "95 of 100 pixels within",
+            "pixels off by more than 2 %",
+            "time with it, to without",
+        )
+    )
+    parts = [f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody>']
+    parts.append("</table></div>")
+    parts += [_paragraph(each, needs, shot) for each in needs.recommendations]
+    return "".join(parts)
+
+
+def _switch_row(change: Change) -> str:
+    cells = [
+        escape(change.switch.words),
+        f"{_signed(change.bias)} ± {_percent(change.interval)}",
+        _percent(change.p95),
+        _percent(change.beyond),
+        "not known" if change.cost is None else f"x {change.cost:.2g}",
+    ]
+    return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+
+
+def _percent(share: float) -> str:
+    value = 100 * share
+    return f"{value:.0f} %" if value >= 99.5 else f"{value:.2g} %"
+
+
+def _signed(share: float) -> str:
+    return ("+" if share > 0 else "-") + _percent(abs(share))
+
+
+def _paragraph(found: Recommendation, needs: Needs, shot: Shot) -> str:
+    goal = (
+        f"<b>Within {_percent(found.tolerance)} of "
+        f"{'everything (the full model)' if found.model == FULL else 'single scattering'}:</b> "
+    )
+    if not found.options:
+        return f"<p>{goal}no setting of this chart; it holds no paths of this model either.</p>"
+    words = _chosen(found) if found.chosen else _foretold(found)
+    left_out = _left_out(found, needs)
+    command = shlex.join(
+        ["./nightcity", "render", f"{shot.scene.name}.usda", "--camera", shot.camera]
+        + [*found.options, "-o", "frame.exr"]
+    )
+    return f"<p>{goal}{words} {left_out}</p><pre>{escape(command)}</pre>"
+
+
+def _chosen(found: Recommendation) -> str:
+    assert found.chosen is not None and found.error is not None
+    kept = "holds" if found.error <= found.tolerance else "MISSES"
+    words = (
+        f"{escape(found.chosen.point.name)}, {_seconds(found.chosen.steady_ms)} a frame here. "
+        f"On the pixels that the choice did not see it {kept}: {_percent(found.error)}."
+    )
+    if found.cheaper:
+        words += f" Cheaper there and good enough: {escape(', '.join(found.cheaper))}."
+    return words + _noise(found)
+
+
+def _foretold(found: Recommendation) -> str:
+    assert found.frame_ms is not None
+    return (
+        f"no setting of this chart. Paths would take about {found.samples} a pixel, "
+        f"{_seconds(found.frame_ms)} a frame here (foretold from their noise, not rendered)."
+    ) + _noise(found)
+
+
+def _noise(found: Recommendation) -> str:
+    if found.truth_noise < found.tolerance / 4:
+        return ""
+    return f" (The truth of this chart is itself noisy: {_percent(found.truth_noise)} of a pixel.)"
+
+
+def _left_out(found: Recommendation, needs: Needs) -> str:
+    model = found.chosen.point.model if found.chosen else found.model
+    order = [change.switch.poorer for change in needs.changes]
+    if model not in order:
+        return ""
+    missing = needs.changes[order.index(model) :]
+    words = "; ".join(f"{change.switch.words} ({_signed(change.bias)})" for change in missing)
+    return f"It leaves out {escape(words)}."
+
+
+def _seconds(milliseconds: float) -> str:
+    if milliseconds < 1000:
+        return f"{milliseconds:.0f} ms"
+    seconds = milliseconds / 1000
+    return f"{seconds:.3g} s" if seconds < 600 else f"{seconds / 3600:.1f} h"
