@@ -10,6 +10,8 @@ from pathlib import Path
 
 from nightcity.errors import NightcityError, UsageError
 
+_STAGES = (".usd", ".usda", ".usdc", ".usdz")
+
 
 def add_farm(commands: argparse._SubParsersAction) -> None:
     """Add ``farm`` with its own commands."""
@@ -28,8 +30,19 @@ def _template(parts: argparse._SubParsersAction) -> None:
     )
     command.add_argument("stage", type=Path)
     command.add_argument("--job", type=Path, required=True, help="the template, .yaml")
+    _add_shot(command, required=True)
+
+    def run(options: argparse.Namespace) -> None:
+        _need("yaml")
+        _write_template(options, options.stage, options.job)
+        print(options.job)
+
+    command.set_defaults(run=run, passes_options_on=True)
+
+
+def _add_shot(command: argparse.ArgumentParser, *, required: bool) -> None:
     command.add_argument(
-        "-o", "--output", type=Path, required=True, help="the images, like out/frame.####.exr"
+        "-o", "--output", type=Path, required=required, help="the images, like out/frame.####.exr"
     )
     command.add_argument("--camera", default="", help="(default: the stage's)")
     command.add_argument("--frames", default="1", help="like 1-10 or 1-10x2,20 (default: 1)")
@@ -37,28 +50,25 @@ def _template(parts: argparse._SubParsersAction) -> None:
     command.add_argument("--tiles", type=int, default=1, help="tiles a frame (default: 1)")
     command.add_argument("--lists", choices=("recomputed", "authored"), default="recomputed")
 
-    def run(options: argparse.Namespace) -> None:
-        _need("yaml")
-        from nightcity.farm.template import Shot, write_template
 
-        shot = Shot(
-            scene=options.stage,
-            output=options.output,
-            camera=options.camera,
-            frames=options.frames,
-            chunk=options.chunk,
-            tiles=options.tiles,
-            lists=options.lists,
-            options=options.renderer_options,
-        )
-        write_template(shot, options.job)
-        print(options.job)
+def _write_template(options: argparse.Namespace, stage: Path, job: Path) -> None:
+    from nightcity.farm.template import Shot, write_template
 
-    command.set_defaults(run=run, passes_options_on=True)
+    shot = Shot(
+        scene=stage,
+        output=options.output,
+        camera=options.camera,
+        frames=options.frames,
+        chunk=options.chunk,
+        tiles=options.tiles,
+        lists=options.lists,
+        options=options.renderer_options,
+    )
+    write_template(shot, job)
 
 
-def _add_job(command: argparse.ArgumentParser) -> None:
-    command.add_argument("job", type=Path, help="the template, .yaml")
+def _add_job(command: argparse.ArgumentParser, what: str = "the template, .yaml") -> None:
+    command.add_argument("job", type=Path, help=what)
     command.add_argument(
         "-p",
         "--parameter",
@@ -83,8 +93,14 @@ def _values(options: argparse.Namespace) -> dict[str, str]:
 
 
 def _run(parts: argparse._SubParsersAction) -> None:
-    command = parts.add_parser("run", help="run a job through Dask, here or on a cluster")
-    _add_job(command)
+    command = parts.add_parser(
+        "run",
+        help="run a job through Dask, here or on a cluster",
+        description="Runs a template. For a stage, its template is written first, with -o and the "
+        "options of `farm template`, beside the folder of the images as FOLDER.job.yaml.",
+    )
+    _add_job(command, "the template, .yaml, or a stage")
+    _add_shot(command, required=False)
     command.add_argument("--scheduler", help="address of a Dask scheduler (default: workers here)")
     command.add_argument(
         "--workers", type=int, default=2, help="renderers at once here (default: %(default)s)"
@@ -97,10 +113,28 @@ def _run(parts: argparse._SubParsersAction) -> None:
 
         if options.workers < 1 or options.retries < 0:
             raise UsageError("--workers must be at least 1, --retries at least 0")
-        steps = read_job(options.job, _values(options))
+        steps = read_job(_job_of(options), _values(options))
         run_job(steps, options.scheduler, options.workers, options.retries)
 
-    command.set_defaults(run=run)
+    command.set_defaults(run=run, passes_options_on=True)
+
+
+def _job_of(options: argparse.Namespace) -> Path:
+    """The template named, or one written for the stage named."""
+    if options.job.suffix not in _STAGES:
+        if options.output or options.renderer_options:
+            given = f"-o {options.output}" if options.output else options.renderer_options[0]
+            raise UsageError(f"{given}: {options.job} is a template, which says that itself")
+        return options.job
+    if options.output is None:
+        raise UsageError(f"{options.job}: -o is missing: its images, like out/frame.####.exr")
+    _need("yaml")
+    images = options.output.parent.absolute()
+    shared = Path(os.path.commonpath([images.parent, options.job.absolute().parent]))
+    job = shared / f"{images.name}.job.yaml"
+    _write_template(options, options.job.absolute(), job)
+    print(job, flush=True)
+    return job
 
 
 def _submit(parts: argparse._SubParsersAction) -> None:

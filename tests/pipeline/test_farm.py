@@ -49,6 +49,26 @@ def test_openjd_checks_and_runs_the_template(
     assert {"contact-sheet.png", "movie.mp4"} <= set(shot.files())
 
 
+def test_a_stage_runs_without_a_template(
+    stage: Path, images: dict[str, bytes], tmp_path: Path
+) -> None:
+    """It is written first, so that the same job can be run again."""
+    shot = Shot(tmp_path)
+    (tmp_path / "city").mkdir()
+    for layer in stage.parent.glob("city.*"):
+        (tmp_path / "city" / layer.name).write_bytes(layer.read_bytes())
+    out = shot.out / "frame.####.exr"
+    told = call(
+        *("nightcity", "farm", "run", tmp_path / "city" / "city.usda", "-o", out, *OPTIONS),
+        *("--frames", "1-2", "--workers", "1"),
+    )
+    assert told.stdout.splitlines()[0] == str(tmp_path / "out.job.yaml")
+    wanted = {f"frame.{n:04d}.exr" for n in (1, 2)}
+    assert images_of(shot) == {name: images[name] for name in wanted}
+    again = call("nightcity", "farm", "run", tmp_path / "out.job.yaml", "--workers", "1")
+    assert again.stdout.count("kept ") == 2
+
+
 def test_a_dead_worker_and_a_frame_that_fails_once(
     stage: Path, images: dict[str, bytes], tmp_path: Path
 ) -> None:
@@ -138,7 +158,9 @@ def plain(stage: Path, tmp_path_factory: pytest.TempPathFactory) -> Shot:
         (("run", "job.yaml", "-p", "Frame=1"), "Frame"),
         (("run", "job.yaml", "-p", "Frames"), "NAME=VALUE"),
         (("run", "none.yaml"), "none.yaml"),
-        (("run", "city.usda"), "city.usda"),
+        (("run", "city.usda"), "city.usda: -o is missing"),
+        (("run", "job.yaml", "--size", "32x18"), "--size: job.yaml is a template"),
+        (("run", "job.yaml", "-o", "a.exr"), "-o a.exr: job.yaml is a template"),
         (("task", "job.yaml", "--step", "Frames", "--number", "7"), "1 tasks"),
         (("template", "city.usda", "--job", "sub/job.yaml", "-o", "a.exr"), "outside the folder"),
         (("template", "city.usda", "--job", "j.yaml", "-o", "a.exr", "--frames", "1-2"), "####"),
