@@ -20,53 +20,6 @@ void composite(ivec2 at, vec4 value) {
               firstMediaId);
 }
 
-// Of a cell whose corners alone are known.
-void compositePlain(ivec2 cell, GlowTable table) {
-    GlowPatch points = glowPatch(cell, table);
-    ivec2 first = cell * int(kGlowCell);
-    ivec2 end = min(first + int(kGlowCell), ivec2(frameTable.width, table.rows)) - first;
-    for (int y = 0; y < end.y; ++y) {
-        vec4 down = cubicWeights(float(y) / float(kGlowCell));
-        for (int x = 0; x < end.x; ++x) {
-            composite(first + ivec2(x, y),
-                      points.isWhole
-                          ? inPatch(points, cubicWeights(float(x) / float(kGlowCell)), down)
-                          : vec4(0.0));  // no haze: glow_refine.comp
-        }
-    }
-}
-
-void compositeQuarters(ivec2 cell, GlowTable table) {
-    GlowQuarters points = glowQuarters(cell, table);
-    ivec2 first = cell * int(kGlowCell);
-    for (int y = 0; y < int(kGlowCell); ++y) {
-        for (int x = 0; x < int(kGlowCell); ++x) {
-            composite(first + ivec2(x, y),
-                      inQuarters(points, parabolaWeights(x), parabolaWeights(y)));
-        }
-    }
-}
-
-// Between the corners of the quarter of a pixel.
-vec4 straightInQuarter(ivec2 at, GlowTable table) {
-    ivec2 low = at & ~1;
-    ivec2 high = low + 2 * (at & 1);
-    return 0.25 * (valueAt(low, table) + valueAt(high, table) +
-                   valueAt(ivec2(low.x, high.y), table) + valueAt(ivec2(high.x, low.y), table));
-}
-
-void compositeMixed(ivec2 cell, uint own, GlowTable table) {
-    ivec2 first = cell * int(kGlowCell);
-    ivec2 end = min(first + int(kGlowCell), ivec2(frameTable.width, table.rows)) - first;
-    for (int y = 0; y < end.y; ++y) {
-        for (int x = 0; x < end.x; ++x) {
-            ivec2 at = first + ivec2(x, y);
-            composite(at, (own & bitOf(at)) != 0u ? valueAt(at, table)
-                                                  : straightInQuarter(at, table));
-        }
-    }
-}
-
 void main() {
     GlowTable table = glowTable;
     uint index = gl_GlobalInvocationID.x;
@@ -79,11 +32,30 @@ void main() {
         return;
     }
     uint own = UintArray(table.cells).at[index] >> kOwnPixels;
-    if (own == 1u) {
-        compositePlain(cell, table);
-    } else if (own == kEvenPixels) {
-        compositeQuarters(cell, table);
-    } else {
-        compositeMixed(cell, own, table);
+    CellSpan span = cellSpan(cell, table);
+    // All ways for all cells: a device that does not skip branches then stores each pixel once.
+    GlowPatch patch_ = glowPatch(cell, table);
+    GlowQuarters quarters = glowQuarters(cell, table);
+    for (int y = 0; y < int(kGlowCell); ++y) {
+        vec4 down = cubicWeights(float(y) / float(kGlowCell));
+        for (int x = 0; x < int(kGlowCell); ++x) {
+            ivec2 at = span.first + ivec2(x, y);
+            if (at.x >= int(frameTable.width) || at.y >= int(table.rows)) {
+                continue;
+            }
+            vec4 value = vec4(0.0);  // no haze: glow_refine.comp
+            if (own == 1u) {
+                if (patch_.isWhole) {
+                    value = inPatch(patch_, cubicWeights(float(x) / float(kGlowCell)), down);
+                }
+            } else if (own == kEvenPixels) {
+                value = inQuarters(quarters, parabolaWeights(x), parabolaWeights(y));
+            } else if ((own & bitOf(at)) != 0u) {
+                value = valueAt(at, table);
+            } else {
+                value = straightInQuarter(quarters, x, y);
+            }
+            composite(at, value);
+        }
     }
 }

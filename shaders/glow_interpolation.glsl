@@ -79,6 +79,7 @@ GlowQuarters glowQuarters(ivec2 cell, GlowTable table) {
     return quarters;
 }
 
+// On the parabolas through the nine.
 vec4 inQuarters(GlowQuarters points, vec3 across, vec3 down) {
     vec4 rows[3];
     for (int j = 0; j < 3; ++j) {
@@ -86,6 +87,15 @@ vec4 inQuarters(GlowQuarters points, vec3 across, vec3 down) {
                   across.z * points.at[3 * j + 2];
     }
     return down.x * rows[0] + down.y * rows[1] + down.z * rows[2];
+}
+
+// Between the corners of the quarter that holds a pixel of the cell.
+vec4 straightInQuarter(GlowQuarters points, int x, int y) {
+    int low = 3 * (y >> 1) + (x >> 1);
+    int right = x & 1;
+    int down = 3 * (y & 1);
+    return 0.25 * (points.at[low] + points.at[low + right] + points.at[low + down] +
+                   points.at[low + right + down]);
 }
 
 float largest(vec4 value) {
