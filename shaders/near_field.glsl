@@ -9,6 +9,8 @@
 #include "transport/near_window.h"
 
 layout(constant_id = NIGHTCITY_CONSTANT_SPHERES) const bool kSpheres = false;
+layout(constant_id = NIGHTCITY_CONSTANT_CUT_EDGES) const bool kCutEdges = true;
+layout(constant_id = NIGHTCITY_CONSTANT_THIN_HAZE) const bool kThinHaze = false;
 
 // The ray about the pane, its parameter still that of `ray`.
 PaneFrame nearFrame(NearPane pane, Ray ray) {
@@ -29,7 +31,7 @@ struct NearPiece {
     float span;        // m
     float extinction;  // 1/m
     float radius;      // m, the near radius
-    float tolerance;   // relative, as in nearNodes
+    float tolerance;   // relative, as in nodesFor
 };
 
 // Part [at, end) of the tiles' lists of panes.
@@ -66,10 +68,11 @@ vec3 nearBesidePanes(PaneList list, NearPiece piece) {
         PaneFrame frame = nearFrame(pane, piece.ray);
         vec2 chord = nearChord(frame, piece.radius, 0.0, piece.span);
         NearPass pass = nearPass(frame, chord, 0.0);
-        if (chord.x < chord.y && pass.sides > kNearCutSides &&
+        if (chord.x < chord.y && (!kCutEdges || pass.sides > kNearCutSides) &&
             (!kSpheres || (pane.flags & kWindowSphere) == 0u)) {
             sum += pane.radiance *
-                   nearBeside(pass, frame, piece.radius, piece.extinction, piece.tolerance);
+                   nearBeside(pass, frame, piece.radius, piece.extinction, piece.tolerance,
+                              kThinHaze);
         }
     }
     return sum;
@@ -114,7 +117,10 @@ vec3 nearSpheres(PaneList list, NearPiece piece) {
 vec3 nearGlow(NearPiece piece, uint tile, GlowTable table) {
     GlowTile found = GlowTileArray(table.tiles).at[tile];
     PaneList list = PaneList(table.tilePanes, found.firstPane, found.firstPane + found.paneCount);
-    vec3 sum = nearBesidePanes(list, piece) + nearEdgesOfPanes(list, piece);
+    vec3 sum = nearBesidePanes(list, piece);
+    if (kCutEdges) {
+        sum += nearEdgesOfPanes(list, piece);
+    }
     if (kSpheres) {
         sum += nearSpheres(list, piece);
     }

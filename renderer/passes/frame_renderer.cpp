@@ -44,6 +44,10 @@ std::uint32_t writtenAovs(const RenderProduct& product, const RenderSettings& se
     return settings.media ? aovs : aovs & ~kHazeAovs;
 }
 
+float toleranceOf(const RenderSettings& settings) {
+    return static_cast<float>(settings.tolerance.value_or(kFieldTolerance));
+}
+
 // The settings that pipelines of the method are specialised to; the others as they are by
 // default, so that a change of them makes no pipeline anew.
 PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
@@ -59,7 +63,7 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
         return choice;
     }
     if (settings.method == Method::field) {
-        choice.hasSpheres = scene.hasSpheres();
+        choice.near = scene.nearKinds(double(toleranceOf(settings)));
         return choice;
     }
     if (settings.method == Method::path) {
@@ -76,10 +80,6 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
         }
     }
     return choice;
-}
-
-float toleranceOf(const RenderSettings& settings) {
-    return static_cast<float>(settings.tolerance.value_or(kFieldTolerance));
 }
 
 void setPaths(FrameTable& table, const RenderSettings& settings) {
@@ -224,7 +224,7 @@ void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderProduct&
         glow_.reset();
         if (choice.method == Method::field && choice.task == kTaskRecords) {
             glow_ = std::make_unique<GlowPasses>(device_, commands_, choice.aovs,
-                                                 choice.hasSpheres);
+                                                 choice.near);
         }
         bound_ = false;
     }

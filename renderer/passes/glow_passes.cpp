@@ -57,12 +57,13 @@ std::vector<GlowBand> glowBands(std::uint32_t width, std::uint32_t height, std::
 }
 
 GlowPasses::GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32_t aovs,
-                       bool hasSpheres)
+                       NearKinds near)
     : device_(device),
       commands_(commands),
       plan_(makePipeline(device, "glow plan", kGlowPlanSpirv, {})),
       tiles_(makePipeline(device, "glow tiles", kGlowTilesSpirv, {})),
-      trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {}, {hasSpheres ? 1u : 0u})),
+      trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {}, 
+                          {near.spheres ? 1u : 0u, near.cutEdges ? 1u : 0u, near.thinHaze ? 1u : 0u})),
       refine_(makePipeline(device, "glow refine", kGlowRefineSpirv, {})),
       composite_(makePipeline(device, "glow composite", kGlowCompositeSpirv, {}, {0, aovs})),
       paneCounter_(device, "glow pane counter", 4),

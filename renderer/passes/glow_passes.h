@@ -15,6 +15,7 @@
 #include "gpu/commands.h"
 #include "gpu/compute_pipeline.h"
 #include "gpu/readable_buffer.h"
+#include "passes/near_panes.h"
 #include "settings.h"
 
 namespace nightcity {
@@ -33,8 +34,8 @@ std::vector<GlowBand> glowBands(std::uint32_t width, std::uint32_t height, std::
 
 class GlowPasses {
 public:
-    // `aovs`: images that the composite writes (aovs.h); hasSpheres: windows may be spheres.
-    GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32_t aovs, bool hasSpheres);
+    // `aovs`: images that the composite writes (aovs.h).
+    GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32_t aovs, NearKinds near);
 
     // For bands of at most so many pixels a row and rows.
     void reserve(std::uint32_t width, std::uint32_t rows);

@@ -103,9 +103,6 @@ void GpuScene::uploadGeometry(const FlatScene& scene) {
     contents_.materials = uploadArray("materials", scene.materials);
     contents_.texels = uploadArray("texels", scene.texels);
     contents_.windows = uploadArray("windows", scene.windows);
-    hasSpheres_ = std::any_of(scene.windows.begin(), scene.windows.end(), [](const Window& window) {
-        return (window.flags & kWindowSphere) != 0;
-    });
     contents_.mediaBoxes = uploadArray("media boxes", scene.mediaBoxes);
     contents_.facades = uploadArray<Facade>("facades", facades.facades);
     contents_.cellStart = uploadArray<uint>("facade cell starts", facades.cellStart);
@@ -148,18 +145,20 @@ void GpuScene::uploadPlanes(const FlatScene& scene, const FacadeTable& facades) 
 void GpuScene::uploadNearField(const FlatScene& scene) {
     NearTable table{};
     table.radius = farField_.table().nearRadius;
-    const NearPanes near = buildNearPanes(scene, table.radius);
+    near_ = buildNearPanes(scene, table.radius);
     nearField_.clear();
     const auto keep = [&](const char* name, const void* data, std::uint64_t bytes) {
         nearField_.emplace_back(device_, name, bytes, gpu::MemoryKind::device);
         commands_.upload(nearField_.back(), data, bytes);
         return addressWords(nearField_.back().address());
     };
-    table.panes = keep("near panes", near.panes.data(), near.panes.size() * sizeof(NearPane));
-    if (!near.tree.empty()) {
-        table.tree = keep("near tree", near.tree.data(), near.tree.size() * sizeof(BoxNode));
+    table.panes = keep("near panes", near_.panes.data(), near_.panes.size() * sizeof(NearPane));
+    if (!near_.tree.empty()) {
+        table.tree = keep("near tree", near_.tree.data(), near_.tree.size() * sizeof(BoxNode));
     }
     contents_.nearField = keep("near table", &table, sizeof(NearTable));
+    near_.panes = {};
+    near_.tree = {};
 }
 
 void GpuScene::uploadOccluders(const FlatScene& scene) {

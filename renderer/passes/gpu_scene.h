@@ -16,6 +16,7 @@
 #include "gpu/commands.h"
 #include "passes/far_field_grid.h"
 #include "passes/light_buffers.h"
+#include "passes/near_panes.h"
 #include "passes/triangle_chunks.h"
 #include "scene/facades.h"
 #include "scene/flat_scene.h"
@@ -52,7 +53,8 @@ public:
     const std::vector<TriangleChunk>& chunks() const { return chunks_; }
     const FarFieldGrid& farField() const { return farField_; }
     bool isHazeUniform() const { return uniformHaze_; }  // scene/uniform_haze.h
-    bool hasSpheres() const { return hasSpheres_; }      // among the windows
+    // Of --method field, once syncFarField was called.
+    NearKinds nearKinds(double tolerance) const { return near_.kinds(tolerance); }
 
 private:
     template <typename T>
@@ -95,7 +97,7 @@ private:
     gpu::Buffer table_;
     SceneTable contents_{};
     bool uniformHaze_ = false;
-    bool hasSpheres_ = false;
+    NearPanes near_;  // without the arrays, which are uploaded
 };
 
 // The two words of an address as the shaders take them.

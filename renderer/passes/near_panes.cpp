@@ -49,12 +49,23 @@ Bounds reachOf(const NearPane& pane, double radius) {
 
 }  // namespace
 
+NearKinds NearPanes::kinds(double tolerance) const {
+    // From 0.5 % on eight nodes along the whole ray do (transport/near_window.h).
+    return {hasSpheres, tolerance < 0.005, opticalHalf <= tolerance};
+}
+
 NearPanes buildNearPanes(const FlatScene& scene, float radius) {
     NearPanes near;
     std::vector<Bounds> bounds;
+    double longest = 0;
     for (const Window& window : scene.windows) {
-        near.panes.push_back(nearPane(window));
-        bounds.push_back(reachOf(near.panes.back(), radius));
+        const NearPane& pane = near.panes.emplace_back(nearPane(window));
+        near.hasSpheres |= (window.flags & kWindowSphere) != 0;
+        longest = std::max(longest, std::hypot(double(pane.halfU), double(pane.halfV)));
+        bounds.push_back(reachOf(pane, radius));
+    }
+    for (const MediaBox& box : scene.mediaBoxes) {
+        near.opticalHalf = std::max(near.opticalHalf, longest * double(box.extinction));
     }
     if (!bounds.empty()) {
         near.tree = packBoxTree(BoxTree(std::move(bounds)));

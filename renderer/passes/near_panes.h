@@ -13,9 +13,23 @@
 
 namespace nightcity {
 
+// What their integrals need not look at, for a tolerance.
+struct NearKinds {
+    bool spheres = false;   // some windows are
+    bool cutEdges = true;   // rays are cut at the edges of panes that they pass close by
+    bool thinHaze = false;  // a pane's light is attenuated as from its centre
+
+    bool operator==(const NearKinds&) const = default;
+};
+
 struct NearPanes {
     std::vector<NearPane> panes;  // one a window
     std::vector<BoxNode> tree;    // over the part of each one's ball of the radius before it
+    bool hasSpheres = false;
+    double opticalHalf = 0;  // half the longest diagonal in the densest haze
+
+    // tolerance: relative, of the glow.
+    NearKinds kinds(double tolerance) const;
 };
 
 // `radius`: m, the near radius.

@@ -39,7 +39,7 @@ struct PipelineChoice {
     Model model;
     bool uniformHaze = false;  // scene/uniform_haze.h
     // Of the field:
-    bool hasSpheres = false;
+    NearKinds near;
 
     bool operator==(const PipelineChoice&) const = default;
     // Whether light comes from the packed lists.

@@ -11,7 +11,8 @@
 // The nodes lie evenly in the angle under which the pane sees the ray, as if the ray passed
 // it at least at half a side (airlight_pane_near.h). How many are needed depends on how near
 // the ray comes, in sides: past one side four are within 1 % (99 of 100 random rays);
-// below a third of a side the ray is cut at its nearest points to the pane's edges.
+// below a third of a side eight are (0.4 % of the whole picture at p99.9), and for smaller
+// tolerances the ray is cut at its nearest points to the pane's edges.
 #ifndef NIGHTCITY_TRANSPORT_NEAR_WINDOW_H
 #define NIGHTCITY_TRANSPORT_NEAR_WINDOW_H
 
@@ -58,22 +59,27 @@ NIGHTCITY_FUNCTION float nearSides(AirlightInterval i, PaneFrame pane) {
     return 0.5f * sqrt(dot(beyond, beyond) / (pane.a * pane.b));
 }
 
-// Nodes of an interval at so many sides, for a relative tolerance of 1e-4 to 0.1 of the
-// whole pane's light on it: half as many again for each decimal.
-NIGHTCITY_FUNCTION int nearNodes(float sides, float tolerance) {
-    float atPercent = sides > 1.75f            ? 3.0f
-                      : sides > 0.75f          ? 4.0f
-                      : sides > 0.55f          ? 5.0f
-                      : sides > 0.4f           ? 6.0f
-                      : sides > kNearCutSides  ? 8.0f
-                                               : 5.0f;  // a piece
+// Of what is enough for 1 %, for a relative tolerance of 1e-4 to 0.1 of the whole pane's light:
+// half as many nodes again for each decimal.
+NIGHTCITY_FUNCTION int nodesFor(float atPercent, float tolerance) {
     float decimals = -0.30103f * log2(100.0f * tolerance);
     return int(clamp(ceil(atPercent * (1.0f + 0.5f * decimals) - 0.01f), 2.0f, float(kGaussMost)));
 }
 
-// One piece of an interval; interval.begin counts from where the attenuation does.
+// Of an interval at so many sides.
+NIGHTCITY_FUNCTION float nearNodes(float sides) {
+    return sides > 1.75f   ? 3.0f
+           : sides > 0.75f ? 4.0f
+           : sides > 0.55f ? 5.0f
+           : sides > 0.4f  ? 6.0f
+                           : 8.0f;
+}
+
+// One piece of an interval; interval.begin counts from where the attenuation does. thinHaze:
+// light from the pane is attenuated as from its centre, which is nearer or farther than the
+// mean by at most half a diagonal.
 NIGHTCITY_FUNCTION float nearPiece(AirlightInterval i, PaneFrame pane, float radius,
-                                   float extinction, int count) {
+                                   float extinction, bool thinHaze, int count) {
     float area = 4.0f * pane.a * pane.b;
     AirlightInterval wide = airlightWide(i, area);
     float arc = airlightArc(wide);
@@ -86,7 +92,7 @@ NIGHTCITY_FUNCTION float nearPiece(AirlightInterval i, PaneFrame pane, float rad
         vec3 point = i.foot + u * pane.direction;
         point.z = max(point.z, kPaneNearest);
         float angle = paneSolidAngle(point, pane.a, pane.b);
-        float mean = paneMeanDistance(area, point.z, angle);
+        float mean = thinHaze ? sqrt(d2) : paneMeanDistance(area, point.z, angle);
         float light = angle * nearShare(d2 / (radius * radius)) *
                       airlightAttenuation(i, extinction, step, mean);
         sum += node.y * (wide.h * wide.h + u * u) * light;
@@ -106,7 +112,7 @@ NIGHTCITY_FUNCTION float nearPieces(AirlightInterval i, PaneFrame pane, float ra
         if (k < 4 && (high - low < shortest || i.ub - high < shortest)) {
             continue;  // no piece of its own
         }
-        sum += nearPiece(airlightPart(i, low, high), pane, radius, extinction, count);
+        sum += nearPiece(airlightPart(i, low, high), pane, radius, extinction, false, count);
         low = high;
     }
     return sum;
@@ -127,17 +133,18 @@ NIGHTCITY_FUNCTION NearPass nearPass(PaneFrame pane, vec2 chord, float begin) {
     return pass;
 }
 
-// The integral where pass.sides > kNearCutSides. extinction in 1/m, 0 to 10; tolerance as in
-// nearNodes.
+// The integral, best where pass.sides > kNearCutSides. extinction in 1/m, 0 to 10; tolerance as in
+// nodesFor; thinHaze as in nearPiece.
 NIGHTCITY_FUNCTION float nearBeside(NearPass pass, PaneFrame pane, float radius, float extinction,
-                                    float tolerance) {
-    return nearPiece(pass.interval, pane, radius, extinction, nearNodes(pass.sides, tolerance));
+                                    float tolerance, bool thinHaze) {
+    return nearPiece(pass.interval, pane, radius, extinction, thinHaze,
+                     nodesFor(nearNodes(pass.sides), tolerance));
 }
 
-// The same where the ray passes nearer.
+// The same in pieces, where the ray passes nearer.
 NIGHTCITY_FUNCTION float nearAtEdges(NearPass pass, PaneFrame pane, float radius, float extinction,
                                      float tolerance) {
-    return nearPieces(pass.interval, pane, radius, extinction, nearNodes(pass.sides, tolerance));
+    return nearPieces(pass.interval, pane, radius, extinction, nodesFor(5.0f, tolerance));
 }
 
 // Int nearShare(d^2 / R^2) exp(-tau (t + d)) / d^2 dt (1/m) of a sphere of light, about whose

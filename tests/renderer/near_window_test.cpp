@@ -48,8 +48,9 @@ double solidAngle(glm::dvec3 x, double a, double b) {
 
 double nearWindow(const NearCase& c, vec2 chord, float begin, float extinction, float tolerance) {
     const NearPass pass = nearPass(c.pane, chord, begin);
-    const auto integral = pass.sides > kNearCutSides ? nearBeside : nearAtEdges;
-    return integral(pass, c.pane, float(kRadius), extinction, tolerance);
+    return pass.sides > kNearCutSides
+               ? nearBeside(pass, c.pane, float(kRadius), extinction, tolerance, false)
+               : nearAtEdges(pass, c.pane, float(kRadius), extinction, tolerance);
 }
 
 struct Exact {
