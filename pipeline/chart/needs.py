@@ -78,7 +78,8 @@ class Recommendation:
 
     chosen: None where no charted setting meets the tolerance. error: at the pixels that the choice
     has not seen. cheaper: settings that meet it there at less cost, beyond the noise.
-    samples, frame_ms: of path, as far as its noise foretells them; None where a setting is chosen.
+    samples, frame_ms: of path, as far as its noise foretells them; None where a setting is chosen
+    and where the chart holds no paths of the model.
     """
 
     tolerance: float
@@ -98,6 +99,8 @@ class Recommendation:
             return (*point.model.options, "--method", point.method, *point.knobs)
         if self.samples:
             return (*self.model.options, "--method", "path", "--samples", str(self.samples))
+        if self.model.scattering == "single":
+            return (*self.model.options, "--method", "gauss", "--tolerance", f"{self.tolerance:g}")
         return ()
 
 

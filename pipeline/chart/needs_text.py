@@ -5,10 +5,11 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Sequence
 from html import escape
 
 from nightcity.chart.needs import Change, Needs, Recommendation
-from nightcity.chart.settings import FULL
+from nightcity.chart.settings import FULL, PAPER, SINGLE
 from nightcity.chart.shot import Shot
 
 
@@ -57,14 +58,31 @@ def _paragraph(found: Recommendation, needs: Needs, shot: Shot) -> str:
         f"{'everything (the full model)' if found.model == FULL else 'single scattering'}:</b> "
     )
     if not found.options:
-        return f"<p>{goal}no setting of this chart; it holds no paths of this model either.</p>"
-    words = _chosen(found) if found.chosen else _foretold(found)
+        return f"<p>{goal}no setting of this chart, which holds no paths of this model.</p>"
+    if found.chosen:
+        words = _chosen(found)
+    else:
+        words = _foretold(found) if found.samples else _NOT_CHARTED
     left_out = _left_out(found, needs)
     command = shlex.join(
         ["./nightcity", "render", f"{shot.scene.name}.usda", "--camera", shot.camera]
-        + [*found.options, "-o", "frame.exr"]
+        + [*_shortened(found.options), "-o", "frame.exr"]
     )
     return f"<p>{goal}{words} {left_out}</p><pre>{escape(command)}</pre>"
+
+
+_NOT_CHARTED = (
+    "no setting of this chart. gauss keeps its tolerance (docs/accuracy.md); here it was neither "
+    "timed nor judged so fine."
+)
+
+
+def _shortened(options: Sequence[str]) -> list[str]:
+    """With --model instead of the switches, where a name stands for all of them."""
+    for name, model in (("paper", PAPER), ("single", SINGLE), ("full", FULL)):
+        if tuple(options[: len(model.options)]) == model.options:
+            return ["--model", name, *options[len(model.options) :]]
+    return list(options)
 
 
 def _chosen(found: Recommendation) -> str:

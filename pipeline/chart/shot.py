@@ -65,9 +65,18 @@ class Scene:
         """As docs/scene_format.md has it; covers all of the scene."""
         return xxhash.xxh3_128_hexdigest(self._manifest)
 
+    def count(self, kind: str) -> int:
+        """Records of a kind, like ``window``."""
+        return int(json.loads(self._manifest)["arrays"][kind]["count"])
+
+    @property
+    def cameras(self) -> list[str]:
+        """Their names."""
+        return [camera["name"] for camera in json.loads(self._manifest)["cameras"]]
+
     def choose_cameras(self, asked: Sequence[str] | None) -> list[str]:
         """The cameras asked for, else the first; an error names those that there are."""
-        there = [camera["name"] for camera in json.loads(self._manifest)["cameras"]]
+        there = self.cameras
         if not there:
             raise SceneError(f"{self.folder}: has no camera to chart; add one to the stage")
         missing = [name for name in asked or () if name not in there]

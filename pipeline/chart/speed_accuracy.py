@@ -10,7 +10,9 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
+from nightcity.chart.growth import SETTINGS, growth_shots, measure_growth, series, smaller_cities
 from nightcity.chart.kept import Kept
 from nightcity.chart.measure import FULL, QUICK, Extent, ShotResults, measure_shot, planned_work
 from nightcity.chart.needs import find_needs
@@ -61,8 +63,9 @@ def chart(stages: Sequence[Path], output: Path, options: ChartOptions) -> list[P
             for camera in scene.choose_cameras(options.cameras)
         ]
         results = list(_measure(kept, shots, options))
+        growth = {} if options.quick else _growth(kept, shots[0], work)
     rows = [row for each in results for row in make_rows(each, kept.renderer_hash)]
-    return _write(rows, results, output)
+    return _write(rows, results, growth, output)
 
 
 def _scenes(stages: Sequence[Path], stack: contextlib.ExitStack) -> list[Scene]:
@@ -86,7 +89,19 @@ def _measure(kept: Kept, shots: Sequence[Shot], options: ChartOptions) -> Iterat
             yield results
 
 
-def _write(rows: list[Row], results: list[ShotResults], output: Path) -> list[Path]:
+def _growth(kept: Kept, shot: Shot, work: Path) -> dict[str, Any]:
+    shots = growth_shots(shot, smaller_cities(work))
+    samples = []
+    with Progress("charting growth", len(shots) * len(SETTINGS)) as progress:
+        for sample in measure_growth(kept, shots):
+            samples.append(sample)
+            progress.advance()
+    return series(samples, shot)
+
+
+def _write(
+    rows: list[Row], results: list[ShotResults], growth: dict[str, Any], output: Path
+) -> list[Path]:
     table = output / "results.csv"
     write_rows(rows, table)
     pictures = [
@@ -98,5 +113,5 @@ def _write(rows: list[Row], results: list[ShotResults], output: Path) -> list[Pa
     ]
     page = output / "index.html"
     needs = {str(each.shot): as_html(find_needs(each), each.shot) for each in results}
-    write_page(rows, results, needs, {}, page)
+    write_page(rows, results, needs, growth, page)
     return [table, *pictures, page]

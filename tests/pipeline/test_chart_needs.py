@@ -85,13 +85,15 @@ def test_paths_are_foretold_where_nothing_else_is_the_full_model(truth: np.ndarr
 
 
 def test_switches_say_what_they_change(truth: np.ndarray) -> None:
-    needs = find_needs(results([measured(field(0.01), 2, 0.85 * truth)], truth))
+    needs = find_needs(results([measured(field(0.01), 2, 0.84 * truth)], truth))
     lit = needs.changes[-1]
     assert lit.switch.richer == FULL and lit.bias == pytest.approx(-0.15)
     assert lit.beyond == 1 and lit.p95 == pytest.approx(0.15)
     assert needs.changes[0].bias == 0
     text = as_html(needs, Shot(Scene("a<b", Path("x")), "street", SIZE))
     assert "lit surfaces (-15 %)" in text and "a<b" not in text
+    # Nothing charted holds single scattering to 0.5 %: gauss is named, as not judged here.
+    assert "--model single --method gauss --tolerance 0.005" in text and "neither timed" in text
 
 
 def test_auto_chooses_and_says_so(nightcity: Command, tmp_path: Path) -> None:
