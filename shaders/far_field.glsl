@@ -62,26 +62,31 @@ uint brickAt(FarFieldTable field, ivec3 cell) {
 }
 
 // In nodeUnit.
-vec3 farNode(FarFieldTable field, uint node) {
+vec4 farNode(FarFieldTable field, uint node) {
     uvec2 halves = FarNodeArray(field.nodes).at[node];
-    return vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x);
+    return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
 }
 
 // W m^-2 at a place of the brick, from (0, 0, 0) at its lower corner to (1, 1, 1): trilinear.
-// Times scattering / (4 pi) it is the source of in-scattered radiance.
-vec3 farFluence(FarFieldTable field, uint brick, vec3 place) {
+// rgb: fluence, a: its error as estimated.
+vec4 farSample(FarFieldTable field, uint brick, vec3 place) {
     const uint side = kBrickSteps + 1u;
     vec3 grid = clamp(place, vec3(0.0), vec3(1.0)) * float(kBrickSteps);
     vec3 corner = min(floor(grid), vec3(float(kBrickSteps) - 1.0));
     vec3 t = grid - corner;
     uvec3 at = uvec3(corner);
     uint node = brick * kBrickNodes + (at.z * side + at.y) * side + at.x;
-    vec3 low = mix(mix(farNode(field, node), farNode(field, node + 1u), t.x),
+    vec4 low = mix(mix(farNode(field, node), farNode(field, node + 1u), t.x),
                    mix(farNode(field, node + side), farNode(field, node + side + 1u), t.x), t.y);
     node += side * side;
-    vec3 high = mix(mix(farNode(field, node), farNode(field, node + 1u), t.x),
+    vec4 high = mix(mix(farNode(field, node), farNode(field, node + 1u), t.x),
                     mix(farNode(field, node + side), farNode(field, node + side + 1u), t.x), t.y);
     return mix(low, high, t.z) * field.nodeUnit;
+}
+
+// Times scattering / (4 pi) it is the source of in-scattered radiance.
+vec3 farFluence(FarFieldTable field, uint brick, vec3 place) {
+    return farSample(field, brick, place).rgb;
 }
 
 #endif

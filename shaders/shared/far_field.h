@@ -37,8 +37,8 @@ struct FarFieldTable {
     uvec2 index;       // uint a lattice cell, x fastest: the brick that holds it and above
                        // kScaleShift its scale, or kNone
     uvec2 bricks;      // FarBrick
-    uvec2 nodes;       // uvec2 a node, kBrickNodes a brick, x fastest, then y: red, green, blue
-                       // as halves, in nodeUnit
+    uvec2 nodes;       // uvec2 a node, kBrickNodes a brick: as halves, in nodeUnit, red, green and
+                       // blue, and how far what is interpolated there may be off: an estimate
     uvec2 media;       // FarMedium
     uvec2 mediumList;  // uint into media, those of one brick after another
     vec3 origin;       // m, lower corner of the lattice

@@ -87,9 +87,14 @@ void FarFieldOnDevice::setWindows(const FlatScene& scene, std::span<const std::u
 }
 
 std::vector<glm::vec3> FarFieldOnDevice::fluence(std::span<const glm::vec3> places) {
+    const std::vector<glm::vec4> answers = fluenceAndError(places);
+    return {answers.begin(), answers.end()};
+}
+
+std::vector<glm::vec4> FarFieldOnDevice::fluenceAndError(std::span<const glm::vec3> places) {
     gpu::Buffer source(device_, "places", places.size_bytes(), gpu::MemoryKind::device);
     commands_.upload(source, places.data(), places.size_bytes());
-    const gpu::ReadableBuffer target(device_, "answers", places.size_bytes());
+    const gpu::ReadableBuffer target(device_, "answers", places.size() * sizeof(glm::vec4));
     probe_.bindBuffers(kPlaces, source, source.bytes());
     probe_.bindBuffers(kAnswers, target.buffer(), target.bytes());
     PushConstants push{};
@@ -100,7 +105,7 @@ std::vector<glm::vec3> FarFieldOnDevice::fluence(std::span<const glm::vec3> plac
         target.recordReadback(recording);
     });
     instance_.throwIfMessages();
-    const auto* answers = static_cast<const glm::vec3*>(target.data());
+    const auto* answers = static_cast<const glm::vec4*>(target.data());
     return {answers, answers + places.size()};
 }
 

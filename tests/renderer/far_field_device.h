@@ -30,6 +30,8 @@ public:
     void setWindows(const FlatScene& scene, std::span<const std::uint8_t> windowOn);
     // W m^-2; -1 where there is no haze near.
     std::vector<glm::vec3> fluence(std::span<const glm::vec3> places);
+    // The same, and an estimate of its error.
+    std::vector<glm::vec4> fluenceAndError(std::span<const glm::vec3> places);
     // The bits of all nodes.
     std::vector<glm::uvec2> nodes();
     std::uint64_t allocatedBytes() const { return device_.allocatedBytes(); }

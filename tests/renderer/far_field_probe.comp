@@ -13,7 +13,7 @@ layout(set = 0, binding = 0, scalar) readonly buffer Places {
     vec3 places[];
 };
 layout(set = 0, binding = 1, scalar) writeonly buffer Answers {
-    vec3 answers[];
+    vec4 answers[];  // fluence and the estimate of its error
 };
 
 void main() {
@@ -24,10 +24,10 @@ void main() {
     FarFieldTable field = farFieldTable;
     uint found = brickAt(field, ivec3(floor((places[index] - field.origin) / field.cellSide)));
     if (found == kNone) {
-        answers[index] = vec3(-1.0);
+        answers[index] = vec4(-1.0);
         return;
     }
     FarBrick brick = FarBrickArray(field.bricks).at[found];
     vec3 place = (places[index] - brickCorner(field, brick)) / brickSide(field, brick);
-    answers[index] = farFluence(field, found, place);
+    answers[index] = farSample(field, found, place);
 }
