@@ -37,7 +37,7 @@ class Extent:
     effort: Effort
 
 
-QUICK = Extent("360x198", 2, 300, 16, Effort(0.01, 1024, 0.1, 32))
+QUICK = Extent("300x165", 2, 200, 12, Effort(0.01, 512, 0.1, 32))
 FULL = Extent("360x198", 2, 1000, 32, Effort(0.003, 1024, 0.1, 64))
 
 

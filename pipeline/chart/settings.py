@@ -109,7 +109,6 @@ QUICK_POINTS = (
     gauss(PAPER, 0.1, work=0.5),
     gauss(PAPER, 0.01, work=0.5),
     gauss(UNOCCLUDED, 0.1, work=10),
-    field(0.1),
     field(0.01),
     path(FULL, 4),
 )
