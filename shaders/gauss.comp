@@ -8,12 +8,16 @@
 
 #include "counters.glsl"
 #include "hiding_faces.glsl"
-#include "light_reach.glsl"
 #include "transport/constants.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
 const float kDeepAcross = 0.25;  // optical depth of half a pane that is not taken whole
+const uint kBatch = 32u;         // windows
+
+// Windows that are looked at together: rays that run side by side do the same work at a time, and
+// what is soon found hidden keeps none waiting.
+uint batch[kBatch];
 
 bool isBehindGround(float height, Stretch stretch) {
     if (kVisibility == 0u || sceneTable.groundMaterial == kNone) {
@@ -87,10 +91,7 @@ float windowOver(Window window, Stretch stretch, Hiders hiders, vec2 range, floa
 vec3 windowGlow(uint index, Stretch stretch, float scale, float soFar) {
     Window window = WindowArray(sceneTable.windows).at[index];
     vec2 range = brightRange(window, stretch);
-    if (!(range.x < range.y) || isBehindGround(window.centre.z, stretch)) {
-        return vec3(0.0);
-    }
-    Hiders hiders = findHiders(window, stretch, range);
+    Hiders hiders = findHiders(window, stretch, range, 1.0);
     vec3 power = window.power * window.colour;
     float perWatt = scale * meanOf(power);
     float depthAcross = stretch.extinction * length(window.halfU + window.halfV);
@@ -113,6 +114,27 @@ vec3 windowGlow(uint index, Stretch stretch, float scale, float soFar) {
     return scale * power * sum;
 }
 
+bool maySee(uint index, Stretch stretch) {
+    Window window = WindowArray(sceneTable.windows).at[index];
+    vec2 range = brightRange(window, stretch);
+    return range.x < range.y && !isBehindGround(window.centre.z, stretch) &&
+           !(kVisibility != 0u && isHiddenNearby(window, stretch, range));
+}
+
+vec3 batchGlow(uint count, Stretch stretch, float scale, float soFar) {
+    uint seen = 0u;
+    for (uint k = 0u; k < count; ++k) {
+        if (maySee(batch[k], stretch)) {
+            batch[seen++] = batch[k];
+        }
+    }
+    vec3 glow = vec3(0.0);
+    for (uint k = 0u; k < seen; ++k) {
+        glow += windowGlow(batch[k], stretch, scale, soFar + meanOf(glow));
+    }
+    return glow;
+}
+
 uint lightSegments = 0u;
 
 // All windows by the tree; `soFar` is the glow of what comes before on the ray.
@@ -125,18 +147,22 @@ vec3 glowOfAll(Stretch stretch, float scale, float soFar) {
     uint open = 1u;
     openNodes[0] = 0u;
     while (open > 0u) {
-        uint index = openNodes[--open];
-        LightNode node = LightNodeArray(sceneTable.lightNodes).at[index];
-        float bound = scale * boundOf(stretch, node) * allPower;
-        if (bound <= kLeftOut * frameTable.tolerance * (soFar + meanOf(glow))) {
-            continue;
+        uint count = 0u;
+        float least = kLeftOut * frameTable.tolerance * (soFar + meanOf(glow));
+        while (open > 0u && count < kBatch) {
+            uint index = openNodes[--open];
+            LightNode node = LightNodeArray(sceneTable.lightNodes).at[index];
+            if (scale * boundOf(stretch, node) * allPower <= least) {
+                continue;
+            }
+            if ((node.child & kLightLeaf) == 0u) {
+                openChildren(index, node, stretch, open);
+            } else {
+                batch[count++] = node.child & ~kLightLeaf;
+            }
         }
-        if ((node.child & kLightLeaf) == 0u) {
-            openChildren(index, node, stretch, open);
-            continue;
-        }
-        glow += windowGlow(node.child & ~kLightLeaf, stretch, scale, soFar + meanOf(glow));
-        ++lightSegments;
+        glow += batchGlow(count, stretch, scale, soFar + meanOf(glow));
+        lightSegments += count;
     }
     return glow;
 }
@@ -146,13 +172,15 @@ vec3 glowOfListed(Stretch stretch, float scale, float soFar) {
     MediaBox box = MediaBoxArray(sceneTable.mediaBoxes).at[stretch.box];
     vec3 glow = vec3(0.0);
     uint lit = 0u;
-    for (uint k = 0u; k < box.lightCount && lit < frameTable.lightCap; ++k) {
-        uint index = UintArray(sceneTable.lightList).at[box.firstLight + k];
-        if (!isLit(index)) {
-            continue;
+    for (uint k = 0u; k < box.lightCount && lit < frameTable.lightCap;) {
+        uint count = 0u;
+        for (; k < box.lightCount && count < min(kBatch, frameTable.lightCap - lit); ++k) {
+            uint index = UintArray(sceneTable.lightList).at[box.firstLight + k];
+            batch[count] = index;
+            count += isLit(index) ? 1u : 0u;
         }
-        ++lit;
-        glow += windowGlow(index, stretch, scale, soFar + meanOf(glow));
+        glow += batchGlow(count, stretch, scale, soFar + meanOf(glow));
+        lit += count;
     }
     lightSegments += lit;
     return glow;

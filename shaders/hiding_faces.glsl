@@ -7,10 +7,11 @@
 #ifndef NIGHTCITY_SHADERS_HIDING_FACES_GLSL
 #define NIGHTCITY_SHADERS_HIDING_FACES_GLSL
 
+#include "light_reach.glsl"
 #include "occluders.glsl"
-#include "window_light.glsl"
 
 const uint kMostFaces = 64u;  // that are kept for a window
+const float kNearby = 30.0;   // m
 
 uint hidingFaces[kMostFaces];
 
@@ -45,8 +46,9 @@ uint nextHiding(inout uint walk, Hiders hiders) {
     return index;
 }
 
-// `range`: t of the part's begin and end, m. Fills hidingFaces, as far as they fit.
-Hiders findHiders(Window window, Stretch stretch, vec2 range) {
+// `range`: t of the part's begin and end, m; `share`: of the ways from the window to the part,
+// beyond which no face is looked for. Fills hidingFaces, as far as they fit.
+Hiders findHiders(Window window, Stretch stretch, vec2 range, float share) {
     Hiders hiders;
     hiders.count = 0u;
     if (kVisibility == 0u) {
@@ -56,8 +58,9 @@ Hiders findHiders(Window window, Stretch stretch, vec2 range) {
                                                  : vec3(0.0);
     vec3 begin = beginFrom(stretch, window.centre);
     hiders.normal = outward(window);
-    hiders.between = betweenBoxAndStretch(window.centre, reach, begin + range.x * stretch.direction,
-                                          begin + range.y * stretch.direction);
+    hiders.between =
+        betweenBoxAndStretch(window.centre, reach, share * (begin + range.x * stretch.direction),
+                             share * (begin + range.y * stretch.direction));
     uint walk = 0u;
     for (uint face = nextHiding(walk, hiders); face != kNone; face = nextHiding(walk, hiders)) {
         if (hiders.count < kMostFaces) {
@@ -81,6 +84,24 @@ Shadows shadowsOn(PointView view, Hiders hiders, vec2 range) {
         addShadow(shadows, shadowOf(view, hidingFace(hiders, k, walk)));
     }
     return shadows;
+}
+
+// Whether faces within kNearby of a window hide it from all of a part: most windows of a city are
+// so hidden, by what stands opposite. Of a pane its middle and its corners are asked, as
+// gauss.comp does before it cuts it.
+bool isHiddenNearby(Window window, Stretch stretch, vec2 range) {
+    float distance = max(distanceTo(stretch, window.centre, 0.0), kNearby);
+    Hiders hiders = findHiders(window, stretch, range, kNearby / distance);
+    uint points = kindOf(window) == kEmitterPane ? 5u : 1u;
+    bool isHidden = hiders.count > 0u && hiders.count <= kMostFaces;
+    for (uint k = 0u; k < points && isHidden; ++k) {
+        vec2 corner = k == 0u ? vec2(0.0) : vec2(k & 1u, k >> 1 & 1u) * 2.0 - 1.0;
+        PointView view =
+            pointView(window.centre, corner.x * window.halfU + corner.y * window.halfV, stretch);
+        Shadows shadows = shadowsOn(view, hiders, range);
+        isHidden = firstSeen(shadows).x >= range.y;
+    }
+    return isHidden;
 }
 
 #endif

@@ -7,7 +7,6 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "hiding_faces.glsl"
-#include "light_reach.glsl"
 #include "primitives.glsl"
 #include "transport/constants.glsl"
 
@@ -104,7 +103,7 @@ float pieceOver(Window window, vec3 offset, SurfacePoint point, Hiders hiders,
 
 float irradianceOf(Window window, SurfacePoint point, float extinction, float perWatt,
                    float soFar) {
-    Hiders hiders = findHiders(window, point.stretch, vec2(0.0));
+    Hiders hiders = findHiders(window, point.stretch, vec2(0.0), 1.0);
     bool isPane = kEmitter == kEmitterPane && (window.flags & kWindowSphere) == 0u;
     float most = isPane ? kMostPanePieces : 1.0;
     float mean = 0.0;

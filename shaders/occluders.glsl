@@ -33,6 +33,9 @@ struct Between {
     vec3 upperPace;
     vec3 normal;      // unit vector of the plane of origin and stretch; 0: no plane
     float thickness;  // m, from that plane
+    vec3 beginSide;   // unit vectors in that plane: away from the ways to the begin and to the
+    vec3 endSide;     // end, inward
+    vec2 depths;      // m, how far beyond those ways the hull may reach
 };
 
 vec3 paceOf(vec3 way) {
@@ -50,6 +53,9 @@ Between betweenBoxes(vec3 origin, vec3 nearHalf, vec3 begin, vec3 end, vec3 farH
     between.upperPace = paceOf(max(begin, end) + farHalf - nearHalf);
     between.normal = vec3(0.0);
     between.thickness = 0.0;
+    between.beginSide = vec3(0.0);
+    between.endSide = vec3(0.0);
+    between.depths = vec2(0.0);
     return between;
 }
 
@@ -66,6 +72,10 @@ Between betweenBoxAndStretch(vec3 origin, vec3 nearHalf, vec3 begin, vec3 end) {
     if (size > 1e-4 * length(begin) * length(end)) {
         between.normal = normal / size;
         between.thickness = dot(abs(between.normal), nearHalf) + kBetweenSlack;
+        between.beginSide = normalize(cross(between.normal, begin));
+        between.endSide = normalize(cross(end, between.normal));
+        between.depths = vec2(dot(abs(between.beginSide), nearHalf),
+                              dot(abs(between.endSide), nearHalf)) + kBetweenSlack;
     }
     return between;
 }
@@ -73,7 +83,7 @@ Between betweenBoxAndStretch(vec3 origin, vec3 nearHalf, vec3 begin, vec3 end) {
 // Whether the hull may touch a box, from the origin. The hull of two boxes is the
 // union over s in [0, 1] of the boxes whose sides run linearly from those of the one to
 // those of the other: so each axis leaves an interval of s, and the box is touched where
-// they have one in common. The box touches the plane's slab besides.
+// they have one in common. The box touches the wedge of the stretch besides.
 bool mayLieBetween(Between between, vec3 lo, vec3 hi) {
     vec3 atLower = (hi + between.nearHalf + kBetweenSlack) * between.lowerPace;
     vec3 atUpper = (lo - between.nearHalf - kBetweenSlack) * between.upperPace;
@@ -83,9 +93,13 @@ bool mayLieBetween(Between between, vec3 lo, vec3 hi) {
                      mix(vec3(0.0), atUpper, greaterThan(between.upperPace, vec3(0.0))));
     float from = max(max(first.x, first.y), max(first.z, 0.0));
     float to = min(min(last.x, last.y), min(last.z, 1.0));
-    float across = abs(dot(between.normal, 0.5 * (lo + hi))) -
-                   dot(abs(between.normal), 0.5 * (hi - lo));
-    return from <= to + kBetweenShare && across <= between.thickness;
+    vec3 centre = 0.5 * (lo + hi);
+    vec3 reach = 0.5 * (hi - lo);
+    float across = abs(dot(between.normal, centre)) - dot(abs(between.normal), reach);
+    vec2 inward = vec2(dot(between.beginSide, centre) + dot(abs(between.beginSide), reach),
+                       dot(between.endSide, centre) + dot(abs(between.endSide), reach));
+    return from <= to + kBetweenShare && across <= between.thickness &&
+           all(greaterThanEqual(inward, -between.depths));
 }
 
 // Whether the hull may cross the plane of a face; a wall behind all of it does not.
