@@ -41,7 +41,7 @@ bool isInSolid(vec3 place) {
         return false;
     }
     vec3 up = (bakeTable.skyHeight - place.z) * kUpward;
-    Between between = betweenBoxAndStretch(place, vec3(0.0), up, up);
+    Between between = betweenBoxAndBox(place, vec3(0.0), up, vec3(0.0));
     float nearest = 2.0;
     bool fromBehind = false;
     uint walk = 0u;

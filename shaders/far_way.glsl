@@ -14,7 +14,7 @@ NIGHTCITY_ARRAY(MediaArray, FarMedium)
 
 // Not by a face on which `to` lies.
 bool isHiddenByAny(vec3 from, vec3 to, vec3 origin) {
-    Between between = betweenBoxAndStretch(origin + from, vec3(0.0), to - from, to - from);
+    Between between = betweenBoxAndBox(origin + from, vec3(0.0), to - from, vec3(0.0));
     uint walk = 0u;
     for (uint index = nextOccluder(walk, between); index != kNone;
          index = nextOccluder(walk, between)) {
@@ -31,7 +31,7 @@ bool isHiddenByAny(vec3 from, vec3 to, vec3 origin) {
 float depthThroughMedia(vec3 from, vec3 to, vec3 origin, FarFieldTable field) {
     vec3 way = to - from;
     vec3 start = origin + from;
-    Between between = betweenBoxAndStretch(start, vec3(0.0), way, way);
+    Between between = betweenBoxAndBox(start, vec3(0.0), way, vec3(0.0));
     vec3 pace = paceOf(way);
     float depth = 0.0;
     uint walk = 0u;
