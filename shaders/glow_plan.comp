@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The first round of rays of a band: the first pixel of every cell, and where a cell sees
-// several faces, every other pixel and all of its mixed quarters. One thread a cell.
+// several faces, every other pixel and more of its mixed quarters. One thread a cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -45,6 +45,17 @@ bool isOneFace(uvec2 same, int x, int y, int side) {
     return (same.x & rows) == rows && (same.y & column) == column;
 }
 
+// Of a quarter that sees several faces, as a mask of its cell from its first pixel: all pixels but
+// those halfway between two of its corners that see the same face as these.
+uint raysOfMixed(uvec2 same, ivec2 from) {
+    uint along = 6u << uint(kSide * from.y + from.x);
+    uint down = (1u << uint(kSide) | 1u << uint(2 * kSide)) << uint(kSide * from.y + from.x);
+    uint rays = 0x21u;
+    rays |= (same.x & along) == along ? 0u : 0x02u;
+    rays |= (same.y & down) == down ? 0u : 0x10u;
+    return rays;
+}
+
 void main() {
     GlowTable table = glowTable;
     uint index = gl_GlobalInvocationID.x;
@@ -69,7 +80,8 @@ void main() {
     for (int quarter = 0; quarter < 4; ++quarter) {
         ivec2 from = ivec2(quarter & 1, quarter >> 1) * 2;
         if (!isOneFace(same, from.x, from.y, 2)) {
-            askForOwn(cell, 0x33u << uint(from.y * int(kGlowCell) + from.x), table);
+            askForOwn(cell, raysOfMixed(same, from) << uint(from.y * int(kGlowCell) + from.x),
+                      table);
         }
     }
 }
