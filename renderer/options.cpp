@@ -179,9 +179,9 @@ void addMethod(CLI::App& app, Options& options) {
               "precision on the CPU the exact integral, with --subdivisions the same march");
     addCount(app, "--subdivisions", settings.subdivisions, "steps of the march in each media box");
     app.add_option("--tolerance", settings.tolerance,
-                   "relative error of the glow, of --method gauss and field (whose baked part stays at 1 % "
-                   "in 99 and 0.3 % in 95 of 100 pixels for less); of what the reference shall judge: it "
-                   "is exact to a tenth of it (default 0.01)")
+                   "relative error of the glow, of --method gauss and, in 95 of 100 pixels, field (its "
+                   "baked part in 99, down to 0.01); of what the reference shall judge: it is exact to "
+                   "a tenth of it (default 0.01)")
         ->type_name("T");
     addChoice(app, "--march-order", settings.marchOrder, "which loop of the march is outside");
     app.add_option("--light-cap", settings.lightCap, "at most so many lit windows a media box")
