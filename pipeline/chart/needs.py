@@ -10,8 +10,8 @@ pixels and held against the other, which the choice has not seen.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,7 @@ from nightcity.chart.truth import Values
 TOLERANCES = (0.1, 0.02, 0.005)
 PERCENTILE = 95
 _RESAMPLED = 400
+_MOST_PATHS = 1_000_000  # that a look at a foretold setting may take
 _SAFETY = 1.3  # more paths than the noise of few pixels asks for
 
 
@@ -77,7 +78,8 @@ class Recommendation:
     """For one tolerance against one model: the cheapest setting, or what paths would take.
 
     chosen: None where no charted setting meets the tolerance. error: at the pixels that the choice
-    has not seen. cheaper: settings that meet it there at less cost, beyond the noise.
+    has not seen; None where that was not rendered. cheaper: settings that meet it there at less
+    cost, beyond the noise.
     samples, frame_ms: of path, as far as its noise foretells them; None where a setting is chosen
     and where the chart holds no paths of the model.
     """
@@ -112,16 +114,31 @@ class Needs:
     recommendations: tuple[Recommendation, ...]
 
 
-def find_needs(results: ShotResults, tolerances: Sequence[float] = TOLERANCES) -> Needs:
-    """Against the full model, and against single scattering for who accepts to leave out more."""
+# Glow (N, 3) of pixels (N, 2) of the shot with these renderer options.
+Render = Callable[[NDArray[np.int64], Sequence[str]], NDArray[np.float64]]
+
+
+def find_needs(
+    results: ShotResults, render: Render, tolerances: Sequence[float] = TOLERANCES
+) -> Needs:
+    """Against the full model, and against single scattering for who accepts to leave out more.
+
+    Paths that no setting of the chart holds are rendered at unseen pixels, where that is cheap.
+    """
+    found = [recommend(results, tol, model) for model in (FULL, SINGLE) for tol in tolerances]
     return Needs(
         tuple(_change(results, switch) for switch in SWITCHES),
-        tuple(
-            recommend(results, tolerance, model)
-            for model in (FULL, SINGLE)
-            for tolerance in tolerances
-        ),
+        tuple(_rendered(each, results, render) for each in found),
     )
+
+
+def _rendered(found: Recommendation, results: ShotResults, render: Render) -> Recommendation:
+    unseen = _halves(results)[1]
+    if not found.samples or found.samples * int(unseen.sum()) > _MOST_PATHS:
+        return found
+    glow = render(results.pixels[unseen], found.options)
+    errors = relative_errors(glow, results.centres[found.model.name].of(unseen).glow)
+    return replace(found, error=float(np.percentile(errors, PERCENTILE)))
 
 
 def _change(results: ShotResults, switch: Switch) -> Change:

@@ -86,11 +86,10 @@ def _shortened(options: Sequence[str]) -> list[str]:
 
 
 def _chosen(found: Recommendation) -> str:
-    assert found.chosen is not None and found.error is not None
-    kept = "holds" if found.error <= found.tolerance else "MISSES"
+    assert found.chosen is not None
     words = (
         f"{escape(found.chosen.point.name)}, {_seconds(found.chosen.steady_ms)} a frame here. "
-        f"On the pixels that the choice did not see it {kept}: {_percent(found.error)}."
+        + _verdict(found)
     )
     if found.cheaper:
         words += f" Cheaper there and good enough: {escape(', '.join(found.cheaper))}."
@@ -100,9 +99,19 @@ def _chosen(found: Recommendation) -> str:
 def _foretold(found: Recommendation) -> str:
     assert found.frame_ms is not None
     return (
-        f"no setting of this chart. Paths would take about {found.samples} a pixel, "
-        f"{_seconds(found.frame_ms)} a frame here (foretold from their noise, not rendered)."
-    ) + _noise(found)
+        (
+            f"no setting of this chart. Paths would take about {found.samples} a pixel, "
+            f"{_seconds(found.frame_ms)} a frame here, as their noise foretells"
+        )
+        + (". Not rendered." if found.error is None else f". {_verdict(found)}")
+        + _noise(found)
+    )
+
+
+def _verdict(found: Recommendation) -> str:
+    assert found.error is not None
+    kept = "holds" if found.error <= found.tolerance else "MISSES"
+    return f"On the pixels that the choice did not see it {kept}: {_percent(found.error)}."
 
 
 def _noise(found: Recommendation) -> str:

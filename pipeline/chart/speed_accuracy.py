@@ -12,6 +12,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from nightcity.chart.growth import SETTINGS, growth_shots, measure_growth, series, smaller_cities
 from nightcity.chart.kept import Kept
 from nightcity.chart.measure import FULL, QUICK, Extent, ShotResults, measure_shot, planned_work
@@ -63,9 +66,10 @@ def chart(stages: Sequence[Path], output: Path, options: ChartOptions) -> list[P
             for camera in scene.choose_cameras(options.cameras)
         ]
         results = list(_measure(kept, shots, options))
+        needs = {str(each.shot): _needs_of(kept, each) for each in results}
         growth = {} if options.quick else _growth(kept, shots[0], work)
     rows = [row for each in results for row in make_rows(each, kept.renderer_hash)]
-    return _write(rows, results, growth, output)
+    return _write(rows, results, needs, growth, output)
 
 
 def _scenes(stages: Sequence[Path], stack: contextlib.ExitStack) -> list[Scene]:
@@ -89,6 +93,13 @@ def _measure(kept: Kept, shots: Sequence[Shot], options: ChartOptions) -> Iterat
             yield results
 
 
+def _needs_of(kept: Kept, results: ShotResults) -> str:
+    def render(pixels: NDArray[np.int64], options: Sequence[str]) -> NDArray[np.float64]:
+        return kept.pixels(results.shot, pixels, options).glow
+
+    return as_html(find_needs(results, render), results.shot)
+
+
 def _growth(kept: Kept, shot: Shot, work: Path) -> dict[str, Any]:
     shots = growth_shots(shot, smaller_cities(work))
     samples = []
@@ -100,7 +111,11 @@ def _growth(kept: Kept, shot: Shot, work: Path) -> dict[str, Any]:
 
 
 def _write(
-    rows: list[Row], results: list[ShotResults], growth: dict[str, Any], output: Path
+    rows: list[Row],
+    results: list[ShotResults],
+    needs: dict[str, str],
+    growth: dict[str, Any],
+    output: Path,
 ) -> list[Path]:
     table = output / "results.csv"
     write_rows(rows, table)
@@ -112,6 +127,5 @@ def _write(
         )
     ]
     page = output / "index.html"
-    needs = {str(each.shot): as_html(find_needs(each), each.shot) for each in results}
     write_page(rows, results, needs, growth, page)
     return [table, *pictures, page]

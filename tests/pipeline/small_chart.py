@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -44,3 +46,14 @@ def make_small_chart(folder: Path, points: Sequence[Point] = POINTS) -> Path:
         patch.setattr(speed_accuracy, "QUICK_POINTS", points)
         chart([small_stage(folder)], folder / "chart", ChartOptions([CAMERA], None, quick=True))
     return folder / "chart"
+
+
+def shared_chart(factory: pytest.TempPathFactory) -> Path:
+    """The chart of every method, made once for all test processes; read it, change only copies."""
+    base = factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "small-chart"
+    folder.mkdir(exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        made = folder / "chart"
+        return made if (made / "index.html").is_file() else make_small_chart(folder, EVERY_METHOD)

@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from small_chart import CAMERA, EVERY_METHOD, make_small_chart, small_stage
+from small_chart import CAMERA, EVERY_METHOD, make_small_chart, shared_chart, small_stage
 
 from nightcity.chart import kept
 from nightcity.chart.errors import error_statistics
@@ -73,7 +74,7 @@ def test_size_names_one_that_divides() -> None:
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_small_chart(tmp_path_factory.mktemp("chart"), EVERY_METHOD)
+    return shared_chart(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
@@ -113,9 +114,11 @@ def test_pictures_are_there(made: Path) -> None:
     assert (made / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_a_killed_chart_goes_on(made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_killed_chart_goes_on(
+    made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     before = (made / "results.csv").read_bytes()
-    (made / "results.csv").unlink()
+    shutil.copytree(made / "measured", tmp_path / "chart" / "measured")
     calls = []
 
     def refuse(*arguments: object) -> None:
@@ -124,12 +127,12 @@ def test_a_killed_chart_goes_on(made: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
     monkeypatch.setattr(kept, "run_renderer", refuse)
     monkeypatch.setattr(kept, "time_frames", refuse)
-    make_small_chart(made.parent, EVERY_METHOD)
-    assert (made / "results.csv").read_bytes() == before
+    make_small_chart(tmp_path, EVERY_METHOD)
+    assert (tmp_path / "chart" / "results.csv").read_bytes() == before
     # Another renderer, or another scene, finds nothing of it.
     monkeypatch.setattr(kept.Kept, "renderer_hash", "another")
     with pytest.raises(NightcityError, match="anew"):
-        make_small_chart(made.parent, EVERY_METHOD)
+        make_small_chart(tmp_path, EVERY_METHOD)
     assert len(calls) == 1
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Command
-from small_chart import CAMERA, make_small_chart
+from small_chart import CAMERA, make_small_chart, shared_chart
 
 from nightcity.chart.compare import compare
 from nightcity.chart.kept import Kept
@@ -57,7 +57,7 @@ def plant(folder: Path, sleep: float, power: float) -> None:
 
 @pytest.fixture(scope="module")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_small_chart(tmp_path_factory.mktemp("clean")) / "results.csv"
+    return shared_chart(tmp_path_factory) / "results.csv"
 
 
 def measured_with(clean: Path, folder: Path, sleep: float, power: float) -> Path:

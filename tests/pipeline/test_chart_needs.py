@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -85,13 +86,24 @@ def test_paths_are_foretold_where_nothing_else_is_the_full_model(truth: np.ndarr
 
 
 def test_switches_say_what_they_change(truth: np.ndarray) -> None:
-    needs = find_needs(results([measured(field(0.01), 2, 0.84 * truth)], truth))
+    settings = [measured(field(0.01), 2, 0.84 * truth), measured(path(FULL, 4), 9, 1.3 * truth)]
+    found = results(settings, truth)
+    asked = []
+
+    def render(pixels: np.ndarray, options: Sequence[str]) -> np.ndarray:
+        asked.append(options[options.index("--samples") + 1])
+        return 1.05 * truth[pixels[:, 1], pixels[:, 0]]
+
+    needs = find_needs(found, render)
     lit = needs.changes[-1]
     assert lit.switch.richer == FULL and lit.bias == pytest.approx(-0.15)
     assert lit.beyond == 1 and lit.p95 == pytest.approx(0.15)
     assert needs.changes[0].bias == 0
     text = as_html(needs, Shot(Scene("a<b", Path("x")), "street", SIZE))
     assert "lit surfaces (-15 %)" in text and "a<b" not in text
+    # 30 % too much asks for 47, 1170 and 18720 paths: the last are too many to look at.
+    assert [int(samples) // 10 for samples in asked] == [4, 117]
+    assert "it holds: 5 %" in text and "it MISSES: 5 %" in text and "Not rendered." in text
     # Nothing charted holds single scattering to 0.5 %: gauss is named, as not judged here.
     assert "--model single --method gauss --tolerance 0.005" in text and "neither timed" in text
 

@@ -14,7 +14,7 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
-from small_chart import POINTS, make_small_chart
+from small_chart import EVERY_METHOD, shared_chart
 
 _FLAGS = ("--headless=new", "--no-sandbox", "--window-size=1280,1000", "--disable-gpu")
 # Of the plot: the points of every method, by its trace's name.
@@ -26,7 +26,7 @@ _TRACES = (
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_small_chart(tmp_path_factory.mktemp("page")) / "index.html"
+    return shared_chart(tmp_path_factory) / "index.html"
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +61,7 @@ def test_loads_from_disk_alone(browser: Chrome) -> None:
     entries = "return performance.getEntriesByType('resource').map(entry => entry.name)"
     assert [name for name in browser.execute_script(entries) if not name.startswith("data:")] == []
     traces = browser.execute_script(_TRACES)
-    assert sum(len(points) for points in traces.values()) == len(POINTS)
+    assert sum(len(points) for points in traces.values()) == len(EVERY_METHOD)
 
 
 def test_filters_and_error_kinds(browser: Chrome) -> None:
@@ -134,12 +134,12 @@ def test_keyboard_reaches_everything(browser: Chrome) -> None:
 def test_arrows_go_from_point_to_point(browser: Chrome) -> None:
     plot = element(browser, "plot")
     seen = []
-    for _ in range(len(POINTS)):
+    for _ in range(len(EVERY_METHOD)):
         plot.send_keys(Keys.ARROW_LEFT)
-    for _ in range(len(POINTS)):
+    for _ in range(len(EVERY_METHOD)):
         seen.append(chosen(browser))
         plot.send_keys(Keys.ARROW_RIGHT)
-    assert sorted(seen) == sorted(point.name for point in POINTS)
+    assert sorted(seen) == sorted(point.name for point in EVERY_METHOD)
 
 
 def test_table_sorts_and_chooses(browser: Chrome) -> None:
