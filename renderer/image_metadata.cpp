@@ -81,6 +81,9 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
          {"filter", choiceName(settings.filter)},
          {"primary", choiceName(settings.primary)},
          {"seed", std::to_string(settings.seed)}});
+    if (settings.reach) {
+        entries.emplace_back("reach", number(*settings.reach));
+    }
     if (settings.method == Method::path) {
         const Orders& orders = settings.orders;
         const bool single = settings.model.scattering == Scattering::single;

@@ -16,6 +16,8 @@ namespace nightcity {
 
 namespace {
 
+constexpr double kMostReach = 1e6;  // m
+
 using Given = std::function<bool(const char*)>;
 
 void require(bool holds, const std::string& message) {
@@ -133,8 +135,23 @@ void checkField(const Options& options, const Given& given) {
             "surfaces); for any other model take --method path or reference");
 }
 
+void checkReach(const Options& options, const Given& given) {
+    const RenderSettings& settings = options.settings;
+    if (!settings.reach) {
+        return;
+    }
+    const bool known = settings.method == Method::gauss || settings.method == Method::path ||
+                       (settings.method == Method::reference && !given("--subdivisions"));
+    require(known, "--reach is for --method gauss, path, and reference without --subdivisions");
+    require(std::isfinite(*settings.reach) && *settings.reach > 0 && *settings.reach <= kMostReach,
+            "--reach must lie above 0 and at most at 1e6 m");
+    require(settings.model.lights == Lights::all,
+            "--reach needs --lights all; listed windows reach as far as the lists");
+}
+
 void checkMethod(const Options& options, const Given& given) {
     const RenderSettings& settings = options.settings;
+    checkReach(options, given);
     checkPaths(options, given);
     require(!settings.writeOnly || (!settings.media && settings.method == Method::march),
             "--write-only is for --media off and --method march: it is the least that the surface "

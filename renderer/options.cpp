@@ -187,6 +187,10 @@ void addMethod(CLI::App& app, Options& options) {
     app.add_option("--light-cap", settings.lightCap, "at most so many lit windows a media box")
         ->check(CLI::Range(1u, kMaxCount).description(""))
         ->type_name("N");
+    app.add_option("--reach", settings.reach,
+                   "with --lights all: no window lights what is farther than this from its centre "
+                   "(default: no limit)")
+        ->type_name("METRES");
     addCount(app, "--samples", settings.samples, "paths a pixel sample, of --method path");
     app.add_option_function<std::string>(
            "--orders", [&](const std::string& text) { settings.orders = parseOrders(text); },

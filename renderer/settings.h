@@ -72,6 +72,8 @@ struct RenderSettings {
     MarchOrder marchOrder = MarchOrder::lights;
     LightStorage lightStorage = LightStorage::uniform;
     std::uint32_t subdivisions = 25;         // steps a segment, at least 1
+    // m; with Lights::all: what is farther from a window's centre gets no light of it. Unset: all do.
+    std::optional<double> reach;
     std::optional<std::uint32_t> lightCap;   // at most this many lit windows a box, the nearest ids first
     // Relative error of a pixel's glow. Method::field: in 95 of 100 pixels. Method::reference: exact
     // to a tenth of this; unset: the march.

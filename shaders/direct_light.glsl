@@ -100,7 +100,8 @@ DirectLight directLight(uint index, vec3 point, float extinction, inout RandomSt
     EmitterSample emitter = sampleEmitter(window, point, nextRandomPair(random));
     vec3 way = emitter.place - point;
     DirectLight light = DirectLight(vec3(0.0), way / max(length(way), 1e-20));
-    if (emitter.perWatt > 0.0) {
+    float distance2 = squared(window.centre - point);
+    if (emitter.perWatt > 0.0 && distance2 <= frameTable.reach * frameTable.reach) {
         light.fluence = emitter.perWatt *
                         transmittanceTo(window, emitter.place, point, extinction) *
                         window.power * window.colour;

@@ -48,6 +48,16 @@ vec2 brightRange(Window window, Stretch stretch) {
     return range;
 }
 
+// The part of that within the window's reach.
+vec2 litRange(Window window, Stretch stretch) {
+    vec2 range = brightRange(window, stretch);
+    vec3 begin = beginFrom(stretch, window.centre);
+    float foot = -dot(begin, stretch.direction);
+    float across2 = squared(begin + foot * stretch.direction);
+    float halfLength = sqrt(max(frameTable.reach * frameTable.reach - across2, 0.0));
+    return vec2(max(range.x, foot - halfLength), min(range.y, foot + halfLength));
+}
+
 // 1/m, as window_light.glsl measures it, of so many pieces along each side; with a spread of
 // 2 two pieces lie about the corners.
 float windowOver(Window window, Stretch stretch, Hiders hiders, vec2 range, float pieces,
@@ -90,7 +100,7 @@ float windowOver(Window window, Stretch stretch, Hiders hiders, vec2 range, floa
 // Radiance, W m^-2 sr^-1. `soFar`: the mean of the channels of what is known.
 vec3 windowGlow(uint index, Stretch stretch, float scale, float soFar) {
     Window window = WindowArray(sceneTable.windows).at[index];
-    vec2 range = brightRange(window, stretch);
+    vec2 range = litRange(window, stretch);
     Hiders hiders = findHiders(window, stretch, range, 1.0);
     vec3 power = window.power * window.colour;
     float perWatt = scale * meanOf(power);
@@ -116,7 +126,7 @@ vec3 windowGlow(uint index, Stretch stretch, float scale, float soFar) {
 
 bool maySee(uint index, Stretch stretch) {
     Window window = WindowArray(sceneTable.windows).at[index];
-    vec2 range = brightRange(window, stretch);
+    vec2 range = litRange(window, stretch);
     return range.x < range.y && !isBehindGround(window.centre.z, stretch) &&
            !(kVisibility != 0u && isHiddenNearby(window, stretch, range));
 }

@@ -148,7 +148,8 @@ bool isBelowGround(float height, SurfacePoint point) {
 vec3 fromWindow(uint index, SurfacePoint point, float extinction, float soFar) {
     Window window = WindowArray(sceneTable.windows).at[index];
     vec3 power = window.power * window.colour;
-    if (isBelowGround(window.centre.z, point)) {
+    if (isBelowGround(window.centre.z, point) ||
+        length(beginFrom(point.stretch, window.centre)) > frameTable.reach) {
         return vec3(0.0);
     }
     return power * irradianceOf(window, point, extinction, meanOf(power), soFar);

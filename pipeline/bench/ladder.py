@@ -92,6 +92,14 @@ MARCHED = Model(
 LISTED = Model("paper, exact: listed, none, isotropic", _exact("listed", "none", "isotropic"), None)
 UNOCCLUDED = Model("all, none, isotropic", _exact("all", "none", "isotropic"), None)
 ISOTROPIC = Model("all, full, isotropic", _exact("all", "full", "isotropic"), None)
+NEAR = tuple(
+    Model(
+        f"all within {reach} m, full, isotropic",
+        (*_exact("all", "full", "isotropic"), "--reach", str(reach)),
+        None,
+    )
+    for reach in (20, 30, 45)
+)
 LAMBERTIAN = Model("all, full, lambertian", _exact("all", "full", "lambertian"), None)
 SINGLE = Model("single: all, full, pane", _PANES, None)
 FORWARD = Model(f"all, full, pane, g = {_FORWARD:g}", None, _paths("--g", f"{_FORWARD:g}"))
@@ -99,11 +107,17 @@ MULTIPLE = Model("all, full, pane, multiple", _PANES, _paths(*_HIGHER))
 RICHEST = Model(
     "full: all, full, pane, multiple, lit", _PANES, _paths(*_HIGHER, "--surfaces", "lit")
 )
-LADDER = (MARCHED, LISTED, UNOCCLUDED, ISOTROPIC, LAMBERTIAN, SINGLE, MULTIPLE)
+LADDER = (MARCHED, LISTED, UNOCCLUDED, *NEAR, ISOTROPIC, LAMBERTIAN, SINGLE, MULTIPLE)
 SWITCHES = (
     Switch("25 steps instead of the integral", MARCHED, LISTED, "0.1 to 0.5 %; 13 % by a window"),
     Switch("the paper's lists, no visibility", LISTED, ISOTROPIC, "-41 to -48 %"),
     Switch("no visibility", UNOCCLUDED, ISOTROPIC, "+84 to +124 %"),
+    *(
+        Switch(f"visible windows within {reach} m", model, ISOTROPIC, expected)
+        for reach, model, expected in zip(
+            (20, 30, 45), NEAR, ("-20 %", "-7.5 %", "-2 %"), strict=True
+        )
+    ),
     Switch("isotropic instead of Lambertian", ISOTROPIC, LAMBERTIAN, "about -40 %"),
     Switch("points instead of panes", LAMBERTIAN, SINGLE, "within about 1 m of a pane only"),
     Switch("single instead of multiple", SINGLE, MULTIPLE, "-12 % (black walls)"),

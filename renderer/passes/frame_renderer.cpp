@@ -82,6 +82,8 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
     return choice;
 }
 
+constexpr double kNoReach = 1e15;  // m; a float holds its square
+
 void setPaths(FrameTable& table, const RenderSettings& settings) {
     const bool single = settings.model.scattering == Scattering::single;
     table.paths = settings.samples;
@@ -253,6 +255,7 @@ void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
     table.centreSample = static_cast<std::uint32_t>(centreSample(work.samples));
     table.tolerance = static_cast<float>(work.settings.tolerance.value_or(0));
     table.lightCap = work.settings.lightCap.value_or(kNone);
+    table.reach = static_cast<float>(work.settings.reach.value_or(kNoReach));
     if (method == Method::path) {
         setPaths(table, work.settings);
     }

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/light_scene.h"
 
+#include <limits>
+
 #include "reference/lit_lists.h"
 
 namespace nightcity {
 
 LightScene::LightScene(const FlatScene& scene, int frame, const RenderSettings& settings)
     : model(settings.model),
+      reach(settings.reach.value_or(std::numeric_limits<double>::infinity())),
       mediaBoxes(scene.mediaBoxes),
       occluders(scene),
       haze(settings.media ? scene.mediaBoxes : std::span<const MediaBox>()),

@@ -17,11 +17,12 @@
 namespace nightcity {
 
 struct LightScene {
-    // The scene must outlive it. Of `settings` it reads the model, the
+    // The scene must outlive it. Of `settings` it reads the model, reach,
     // light cap, and whether there is haze at all.
     LightScene(const FlatScene& scene, int frame, const RenderSettings& settings);
 
     Model model;
+    double reach;                            // m, from a window's centre; infinite: no limit
     std::span<const MediaBox> mediaBoxes;
     Occluders occluders;
     Haze haze;                               // empty with media off

@@ -25,6 +25,14 @@ bool continues(const HazeStretch& a, const HazeStretch& b) {
     return a.end == b.begin && a.extinction == b.extinction && a.scattering == b.scattering;
 }
 
+// The part of a part of the ray that lies within `reach` of a point.
+RayPart withinReach(const Ray& ray, glm::dvec3 point, double reach, const RayPart& part) {
+    const double foot = glm::dot(point - ray.origin, ray.direction);
+    const glm::dvec3 across = ray.at(foot) - point;
+    const double half = std::sqrt(std::max(reach * reach - glm::dot(across, across), 0.0));
+    return {std::max(part.begin, foot - half), std::min(part.end, foot + half)};
+}
+
 void joinNeighbours(std::vector<HazeStretch>& stretches) {
     std::vector<HazeStretch> joined;
     for (const HazeStretch& stretch : stretches) {
@@ -108,6 +116,7 @@ Estimate SingleScattering::fromWindow(const Ray& ray, std::span<const HazeStretc
     const PointSource middle = window.pointSource(window.centre, emitter);
     RayPart part = hull(stretches);
     std::tie(part.begin, part.end) = litPart(ray, middle, part.begin, part.end);
+    part = withinReach(ray, window.centre, lights_.reach, part);
     if (part.isEmpty()) {
         return {};
     }

@@ -78,7 +78,7 @@ WindowSum SurfaceLight::irradiance(const SurfacePoint& point) const {
     const auto add = [&](std::uint32_t index) {
         const LitWindow& window = lights_.windows[index];
         const double most = bound(point, window, lights_.model.emitter);
-        if (most > 0) {
+        if (most > 0 && glm::length(window.centre - point.place) <= lights_.reach) {
             bounds.push_back({index, most * window.meanPower()});
         }
     };

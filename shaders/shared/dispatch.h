@@ -187,6 +187,8 @@ struct FrameTable {
     uint firstOrder;    // of scattering, from 1
     uint lastOrder;     // or kNoLastOrder
     float anisotropy;   // g of Henyey and Greenstein
+    float reach;        // m, from a window's centre, beyond which it lights nothing
+    uint reserved;      // 0
 };
 
 struct PushConstants {

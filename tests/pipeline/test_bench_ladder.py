@@ -37,10 +37,13 @@ def test_small_ladder(nightcity: Command) -> None:
         *("--size", "96x53", "--pixels", "6", "--integrated-pixels", "1", "--samples", "1024"),
     )
     found = rows(done.stdout)
-    assert len(found) == 7 + 8
+    assert len(found) == 10 + 11
     assert all(len(cells) in (4, 5) for cells in found.values())
     # Halves of the light of isotropic windows go into their own wall.
     assert -0.7 < share(found["isotropic instead of Lambertian"][0]) < -0.2
+    near = [share(found[f"visible windows within {reach} m"][0]) for reach in (20, 30, 45)]
+    assert near == sorted(near)
+    assert near[-1] <= 0
     assert share(found["no visibility"][0]) > 0.1
     assert -0.3 < share(found["single instead of multiple"][0]) < -0.01
     assert share(found["black instead of lit surfaces"][0]) < 0

@@ -77,6 +77,26 @@ TEST(JudgeOptions, WhatTheMarchDoesNotKnowIsRefused) {
     EXPECT_NE(refusal({"--tolerance", "0.1"}).find("--tolerance"), std::string::npos);
 }
 
+TEST(JudgeOptions, ReachIsForMethodsThatKnowIt) {
+    for (const char* method : {"gauss", "path", "reference"}) {
+        EXPECT_EQ(parse({"--method", method, "--lights", "all", "--reach", "30"}).settings.reach, 30);
+        EXPECT_FALSE(parse({"--method", method, "--lights", "all"}).settings.reach);
+        const std::string listed = refusal({"--method", method, "--reach", "30"});
+        EXPECT_NE(listed.find("--reach needs --lights all"), std::string::npos) << listed;
+        for (const char* reach : {"0", "-1", "nan", "inf", "2e6"}) {
+            const std::string said =
+                refusal({"--method", method, "--lights", "all", "--reach", reach});
+            EXPECT_NE(said.find("--reach must lie"), std::string::npos) << said;
+        }
+    }
+    for (const std::vector<const char*>& method :
+         {std::vector<const char*>{"--method", "march"}, {"--method", "field", "--model", "single"},
+          {"--method", "reference", "--subdivisions", "5"}}) {
+        std::vector<const char*> all = method;
+        all.insert(all.end(), {"--reach", "30"});
+        EXPECT_NE(refusal(all).find("--reach is for"), std::string::npos) << refusal(all);
+    }
+}
 TEST(JudgeOptions, MetadataNamesToleranceOrSteps) {
     const FlatScene scene = paperCity(1).load();
     RenderProduct product;
@@ -96,6 +116,9 @@ TEST(JudgeOptions, MetadataNamesToleranceOrSteps) {
     EXPECT_NE(names(settings).find("tolerance=0.001 "), std::string::npos);
     EXPECT_EQ(names(settings).find("subdivisions"), std::string::npos);
     EXPECT_NE(names(settings).find("emitter=pane "), std::string::npos);
+    EXPECT_EQ(names(settings).find("reach"), std::string::npos);
+    settings.reach = 30;
+    EXPECT_NE(names(settings).find("reach=30 "), std::string::npos);
 }
 
 }  // namespace

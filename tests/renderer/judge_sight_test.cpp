@@ -35,6 +35,37 @@ TEST(JudgeSight, OwnWallWithinFiveCentimetresHidesNothing) {
     }
 }
 
+// In air that dims nothing: 1 / d^2 along the chord of the sphere of that radius.
+TEST(JudgeSight, ReachEndsTheLightOfAWindow) {
+    SceneBuilder city;
+    addFreeWindow(city, {0, 0, 4});
+    city.addMediaBox({-100, -100, 0}, {100, 100, 12}, 1e-14f, 0.9f);
+    const FlatScene scene = city.load();
+    const Ray ray = through({-90, 3, 4}, {90, 3, 4});
+    RenderSettings settings = exactModel(Emitter::isotropic);
+    for (const double reach : {3.5, 20.0, 60.0}) {
+        settings.reach = reach;
+        const double chord = 2 * std::atan(std::sqrt(reach * reach - 9) / 3);
+        const double expected = phaseScattering(city) * 50 / (4 * kPi * 3) * chord;
+        EXPECT_NEAR(glow(scene, settings, ray) / expected, 1, 1e-6) << reach;
+    }
+    settings.reach = 2.9;
+    EXPECT_EQ(glow(scene, settings, ray), 0);
+}
+
+TEST(JudgeSight, ReachEndsTheLightOnSurfaces) {
+    const FlatScene scene = houseAndWindow(0.01f).load();
+    const auto lit = [&](double reach) {
+        RenderSettings settings = exactModel(Emitter::pane);
+        settings.reach = reach;
+        const LightScene lights(scene, 1, settings);
+        const SurfacePoint point{{1, 6, 3}, {0, -1, 0}, std::nullopt};
+        return SurfaceLight(lights, {1e-6, 1e-8}).irradiance(point).value.x;
+    };
+    EXPECT_GT(lit(6.2), 0);  // the window is 6.16 m away
+    EXPECT_EQ(lit(6.1), 0);
+}
+
 // The same rule for light on surfaces.
 TEST(JudgeSight, OwnWallHidesNothingFromSurfaces) {
     for (const Emitter emitter : kEmitters) {

@@ -16,6 +16,7 @@ from nightcity.chart.stability.closed_forms import (
 from nightcity.chart.stability.lab import Lab, Shot
 from nightcity.chart.stability.methods import Method
 from nightcity.chart.stability.sweep import (
+    FIELD_TOLERANCE,
     Axis,
     Errors,
     Failure,
@@ -260,7 +261,10 @@ SWEEPS = (
         truth="judge",
         bar=1e-3,
         measure=against(_far_along),
-        failures={"march": Failure(_STEPS_CAUSE, 0.3, 10)},
+        failures={
+            "march": Failure(_STEPS_CAUSE, 0.3, 10),
+            "field": Failure(FIELD_TOLERANCE, 0.001, 0.01),
+        },
     ),
     Sweep(
         name="thin-slab",
@@ -273,6 +277,7 @@ SWEEPS = (
         measure=against(_thin_slab),
         failures={
             "march": Failure("dims the light as if the haze reached to it", 0.9, 1.1),
+            "field": Failure(FIELD_TOLERANCE, 0.001, 0.01),
         },
     ),
     Sweep(

@@ -33,6 +33,10 @@ class Model:
 PLAIN = Model()
 
 
+class NotAskedError(Exception):
+    """A method does not know the physics of a sweep."""
+
+
 @dataclass(frozen=True)
 class Method:
     """One curve of every picture."""
@@ -42,12 +46,19 @@ class Method:
     colour: str
     marker: str
     paper_only: bool = False  # knows the paper's model alone
+    panes_only: bool = False  # knows panes alone: all lights, full visibility, single scattering
     replicas: int = 1  # of a single ray, side by side: a noisy method's are independent
     orders: bool = False  # knows multiple scattering
     on_device: bool = True
 
+    def nearest(self, model: Model) -> Model:
+        """The physics to ask instead, of shots that the judge can judge with any windows."""
+        return Model(emitter="pane") if self.panes_only and model == PLAIN else model
+
     def arguments(self, model: Model) -> list[str]:
-        """For nightcity-render."""
+        """For nightcity-render; NotAskedError where the method does not know the model."""
+        if self.panes_only and model != Model(emitter="pane"):
+            raise NotAskedError
         physics = ["--model", "paper"] if self.paper_only else model.options()
         return ["--method", self.name, *self.options, *physics]
 
@@ -63,7 +74,7 @@ METHODS = {
     for method in (
         Method("march", ("--subdivisions", "25"), "#c0504d", "s", paper_only=True),
         Method("gauss", ("--tolerance", "0.001"), "#2f6db5", "o"),
-        Method("field", ("--tolerance", "0.01"), "#3a8f4d", "^"),
+        Method("field", ("--tolerance", "0.01"), "#3a8f4d", "^", panes_only=True),
         Method("path", ("--samples", "256"), "#8064a2", "x", replicas=128, orders=True),
         Method("reference", ("--tolerance", "0.001"), "#404040", ".", on_device=False),
     )

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from nightcity.chart.stability.lab import Shot
 from nightcity.chart.stability.methods import Model
-from nightcity.chart.stability.sweep import Axis, Failure, Sweep, against
+from nightcity.chart.stability.sweep import FIELD_TOLERANCE, Axis, Failure, Sweep, against
 from nightcity.chart.stability.tiny_scene import TinyScene
 
 FloatArray = NDArray[np.float64]
@@ -64,7 +64,10 @@ SWEEPS = (
         truth="judge",
         bar=0.01,
         measure=against(_past(_PANE)),
-        failures={"march": Failure(_POINTS, 0.5, 20)},
+        failures={
+            "march": Failure(_POINTS, 0.5, 20),
+            "field": Failure(f"{FIELD_TOLERANCE}, in 95 of 100 pixels", 0.01, 0.03),
+        },
     ),
     Sweep(
         name="lambertian-distance",

@@ -30,7 +30,7 @@ def chart_stability(output: Path, methods: list[str] | None, quick: bool) -> lis
     with Progress("stability", sum(map(len, work))) as progress:
         for sweep, names in zip(SWEEPS, work, strict=True):
             outcomes[sweep.name] = _outcomes(sweep, names, quick, progress)
-            if names:
+            if outcomes[sweep.name]:
                 paths += _write(sweep, outcomes[sweep.name], output / sweep.name)
     table = output / "stability.md"
     table.write_text(markdown(outcomes, chosen))
@@ -42,7 +42,8 @@ def _outcomes(sweep: Sweep, names: list[str], quick: bool, progress: Progress) -
     with tempfile.TemporaryDirectory() as folder:
         lab = Lab(Path(folder))
         for name in names:
-            outcomes.append(run(sweep, lab, METHODS[name], quick))
+            outcome = run(sweep, lab, METHODS[name], quick)
+            outcomes += [outcome] if outcome else []
             progress.advance()
     return outcomes
 
