@@ -172,7 +172,7 @@ SWEEPS = (
         measure=against(_cut),
         failures={
             "march": Failure("no visibility; steps follow the boxes", 50, 500),
-            "field": Failure("shadows are interpolated: rays a thousand times darker", 0.3, 3),
+            "field": Failure("a ray a thousand times darker than others is too bright", 0.3, 3),
         },
     ),
 )
