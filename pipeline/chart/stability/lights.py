@@ -277,7 +277,7 @@ SWEEPS = (
         measure=against(_thin_slab),
         failures={
             "march": Failure("dims the light as if the haze reached to it", 0.9, 1.1),
-            "field": Failure(FIELD_TOLERANCE, 0.001, 0.01),
+            "field": Failure(FIELD_TOLERANCE, 0.001, 0.02),
         },
     ),
     Sweep(
