@@ -44,12 +44,15 @@ struct PassTime {
 struct RenderStatistics {
     double frameMilliseconds = 0;   // of the last render call, from submission to the last fence
     double bakeMilliseconds = 0;    // of the last sync: acceleration structures and tables
+    std::vector<PassTime> bakePasses;  // of the last sync: of the far field, where it was baked
     std::vector<PassTime> passes;   // of the last render call, in order
     std::uint64_t lightEvaluations = 0;  // light terms computed by the last render call
     std::uint32_t lightPages = 0;
     std::string lightStorage;       // "uniform" or "storage", as it was, not as asked
     std::string device;
     std::uint64_t deviceMemoryBytes = 0;
+    std::uint64_t farFieldBytes = 0;     // of these, for Method::field
+    std::uint64_t farFieldBricks = 0;
 };
 
 }  // namespace nightcity

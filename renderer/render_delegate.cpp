@@ -88,6 +88,11 @@ public:
         const std::chrono::duration<double, std::milli> wall =
             std::chrono::steady_clock::now() - start;
         statistics_.bakeMilliseconds = wall.count();
+        if (settings.method == Method::field) {
+            statistics_.bakePasses = scene_.farField().passTimes();
+            statistics_.farFieldBytes = scene_.farField().bytes();
+            statistics_.farFieldBricks = scene_.farField().brickCount();
+        }
         const LightPages& pages = scene_.lights().pages();
         statistics_.lightStorage =
             pages.storage == LightStorage::uniform ? "uniform" : "storage";

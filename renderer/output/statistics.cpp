@@ -53,8 +53,13 @@ nlohmann::ordered_json timing(const StatisticsReport& report) {
     for (const PassTime& pass : report.frames.back().passes) {
         passes[pass.name] = medianOfPass(steady, pass.name);
     }
+    nlohmann::ordered_json bakePasses = nlohmann::ordered_json::object();
+    for (const PassTime& pass : report.frames.front().bakePasses) {
+        bakePasses[pass.name] = pass.milliseconds;
+    }
     return {{"load_ms", report.loadMilliseconds},
             {"bake_ms", report.bakeMilliseconds},
+            {"bake_passes", bakePasses},
             {"first_frame_ms", report.frames.front().frameMilliseconds},
             {"steady_frame_ms", quantile(milliseconds, 0.5)},
             {"steady_frames", milliseconds.size()},
@@ -88,9 +93,13 @@ void writeStatistics(const std::filesystem::path& file, const StatisticsReport& 
           {"triangles", report.triangles},
           {"light_list_entries", report.lightListEntries},
           {"light_pages", last.lightPages},
-          {"light_evaluations", last.lightEvaluations}}},
+          {"light_evaluations", last.lightEvaluations},
+          {"far_field_bricks", last.farFieldBricks}}},
         {"timing", times},
-        {"memory", {{"device_bytes", last.deviceMemoryBytes}, {"host_peak_bytes", peakHostBytes()}}},
+        {"memory",
+         {{"device_bytes", last.deviceMemoryBytes},
+          {"far_field_bytes", last.farFieldBytes},
+          {"host_peak_bytes", peakHostBytes()}}},
         {"light_storage", last.lightStorage},
         {"light_evaluations_per_second", seconds > 0 ? double(last.lightEvaluations) / seconds : 0},
         {"notes", report.notes}};

@@ -55,6 +55,7 @@ uvec2 FarFieldGrid::allocate(const char* name, std::uint64_t bytes) {
 void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& settings,
                             VkDeviceAddress sceneTable) {
     hasSums_ = false;
+    passTimes_.clear();
     arrays_.clear();
     sums_ = {};
     nodes_ = {};
@@ -180,12 +181,35 @@ void FarFieldGrid::dispatch(const char* name, const gpu::ComputePipeline& pipeli
     const std::uint32_t most = std::min(device_.limits().workGroupCount, 65535u);
     while (push.firstPixel < end) {
         const std::uint32_t count = std::min(end - push.firstPixel, most);
-        commands_.run(name, [&](VkCommandBuffer commands) {
+        addTime(name, commands_.run(name, [&](VkCommandBuffer commands) {
             pipeline.dispatch(commands, &push, count);
             gpu::computeBarrier(commands);
-        });
+        }));
         push.firstPixel += count;
     }
+}
+
+void FarFieldGrid::addTime(const char* name, double milliseconds) {
+    const auto found = std::find_if(passTimes_.begin(), passTimes_.end(),
+                                    [&](const PassTime& pass) { return pass.name == name; });
+    if (found == passTimes_.end()) {
+        passTimes_.push_back({name, milliseconds});
+    } else {
+        found->milliseconds += milliseconds;
+    }
+}
+
+std::uint64_t FarFieldGrid::bytes() const {
+    std::uint64_t bytes = 0;
+    for (const gpu::Buffer& array : arrays_) {
+        bytes += array.bytes();
+    }
+    for (const gpu::Buffer* buffer : {&table_, &bakeTable_, &emission_, &bakedEmission_, &changed_,
+                                      &sums_, &nodes_, &entries_, &entryCounts_.buffer(),
+                                      &units_.buffer()}) {
+        bytes += *buffer ? buffer->bytes() : 0;
+    }
+    return bytes;
 }
 
 void FarFieldGrid::findSides(VkDeviceAddress sceneTable) {
@@ -241,14 +265,14 @@ void FarFieldGrid::bakeBricks(VkDeviceAddress sceneTable) {
 
 // Returns the most that a brick has.
 std::uint32_t FarFieldGrid::findEntries(const PushConstants& push) {
-    commands_.run("far sight", [&](VkCommandBuffer commands) {
+    addTime("far sight", commands_.run("far sight", [&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, entryCounts_.buffer().get(), 0, VK_WHOLE_SIZE, 0);
         gpu::computeBarrier(commands);
         sight_.dispatch(commands, &push, push.pixelCount);
         gpu::computeBarrier(commands);
         entryCounts_.recordReadback(commands);
         units_.recordReadback(commands);
-    });
+    }));
     const auto* counts = static_cast<const std::uint32_t*>(entryCounts_.data());
     return *std::max_element(counts, counts + push.pixelCount);
 }

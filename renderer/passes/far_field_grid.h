@@ -12,6 +12,7 @@
 
 #include "dispatch.h"
 #include "far_bake.h"
+#include "frame.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "gpu/compute_pipeline.h"
@@ -56,6 +57,10 @@ public:
     const FarFieldTable& table() const { return contents_; }
     const gpu::Buffer& nodes() const { return nodes_; }  // uvec2 each, as frames read them
     std::uint64_t nodeCount() const { return layout_.nodes(); }
+    std::uint64_t brickCount() const { return layout_.bricks.size(); }
+    std::uint64_t bytes() const;  // on the device
+    // What the device took for the last syncGeometry and what followed it, by pass.
+    const std::vector<PassTime>& passTimes() const { return passTimes_; }
 
 private:
     // Bricks of one batch.
@@ -76,6 +81,7 @@ private:
     void finish(VkDeviceAddress sceneTable);
     void chooseNodeUnit();
     void dispatch(const char* name, const gpu::ComputePipeline& pipeline, PushConstants push);
+    void addTime(const char* name, double milliseconds);
     void writeTables();
     PushConstants pushOf(VkDeviceAddress sceneTable, Batch batch) const;
 
@@ -96,6 +102,7 @@ private:
     gpu::Buffer entries_;
     gpu::ReadableBuffer entryCounts_;
     gpu::ReadableBuffer units_;
+    std::vector<PassTime> passTimes_;
     FarFieldTable contents_{};
     FarBakeTable bake_{};
     gpu::ComputePipeline sides_, sight_, sum_, finish_;

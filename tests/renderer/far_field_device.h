@@ -35,6 +35,7 @@ public:
     // The bits of all nodes.
     std::vector<glm::uvec2> nodes();
     std::uint64_t allocatedBytes() const { return device_.allocatedBytes(); }
+    const FarFieldGrid& field() const { return scene_.farField(); }
     std::uint64_t nodeCount() const { return scene_.farField().nodeCount(); }
 
 private:

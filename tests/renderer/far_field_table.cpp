@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the far field of a scene costs and how far it is off, by node spacing:
-//     far_field_table SCENE POINTS RADIUS_IN_SPACINGS SPACING...
-// Times are of the process, over all its threads. Errors are those of the far part at random
-// places in the air, over all of the fluence there.
+//     far_field_table SCENE POINTS RADIUS CAMERA BRICKS SPACING...
+// RADIUS: of the near parts, m. CAMERA: about which the field is finest, or - for bricks of one
+// size; BRICKS: about how many there may be. Times are of the process, over all its
+// threads, then in brackets those of the passes by the clock. Errors are those of the far part at
+// random places in the air, over all of the fluence there.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <string>
 
 #include "far_field_device.h"
 #include "scene/scene_file.h"
@@ -58,6 +61,7 @@ void printRow(FarFieldOnDevice& device, const FlatScene& scene, const FarFieldSe
     const double start = processSeconds();
     device.sync(scene, settings);
     const double baked = processSeconds();
+    const std::vector<PassTime> passes = device.field().passTimes();
     std::vector<std::uint8_t> on = scene.windowsOn(1);
     std::mt19937 random(1);
     for (std::size_t i = 0; i < (on.size() + 99) / 100; ++i) {
@@ -73,13 +77,16 @@ void printRow(FarFieldOnDevice& device, const FlatScene& scene, const FarFieldSe
     if (!places.empty()) {
         printErrors(device, scene, settings, places);
     }
+    for (const PassTime& pass : passes) {
+        std::printf(" [%s %.2f]", pass.name.c_str(), pass.milliseconds / 1000);
+    }
     std::printf("\n");
     std::fflush(stdout);
 }
 
 int run(int argc, char** argv) {
-    if (argc < 5) {
-        std::fprintf(stderr, "far_field_table SCENE POINTS RADIUS_IN_SPACINGS SPACING...\n");
+    if (argc < 7) {
+        std::fprintf(stderr, "far_field_table SCENE POINTS RADIUS CAMERA BRICKS SPACING...\n");
         return 2;
     }
     const FlatScene scene = loadScene(argv[1]);
@@ -87,12 +94,18 @@ int run(int argc, char** argv) {
     FarFieldOnDevice device(false);
     FarFieldSettings settings;
     settings.memoryBytes = 4'000'000'000;
+    settings.nearRadius = float(std::atof(argv[3]));
     device.sync(paperCity(1).load(), settings);  // compiles the shaders
+    settings.mostBricks = std::strtoull(argv[5], nullptr, 10);
+    if (std::string(argv[4]) != "-") {
+        for (const CameraFrame& frame : scene.camera(argv[4]).frames) {
+            settings.eyes.push_back(frame.position);
+        }
+    }
     std::printf("%8s %8s %10s %9s %9s %9s | %8s %8s %8s %8s %8s\n", "spacing", "radius", "nodes",
                 "bake s", "toggle s", "MB", "bias %", "p50 %", "p95 %", "p99 %", "max %");
-    for (int i = 4; i < argc; ++i) {
+    for (int i = 6; i < argc; ++i) {
         settings.spacing = float(std::atof(argv[i]));
-        settings.nearRadius = float(std::atof(argv[3])) * settings.spacing;
         printRow(device, scene, settings, places);
     }
     return 0;
