@@ -80,7 +80,7 @@ public:
         }
         scene_.syncWindowState(scene, frame, settings);
         if (settings.method == Method::field) {
-            scene_.syncFarField(scene, scene.windowsOn(frame), 
+            scene_.syncFarField(scene, scene.windowsOn(frame),
                                 farFieldSettings(settings, scene.camera(camera)));
         }
         flatScene_ = &scene;

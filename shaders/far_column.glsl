@@ -20,6 +20,7 @@ struct Column {
     vec3 foot;      // of node 0, from the brick's centre, m
     float spacing;  // m
     float halfSide; // m, of the brick
+    bool isCoarse;  // nodes are too far apart for the shape of a pane
     vec3 hazeLo, hazeHi;  // of the brick's first medium, from its centre, m
     bool oneHaze;         // in all of the brick
 };
@@ -41,6 +42,10 @@ FarWindow windowOfLane(FarWindow mine, uint lane) {
     window.isSphere = subgroupBroadcast(mine.isSphere, lane);
     window.faceCount = subgroupBroadcast(mine.faceCount, lane);
     window.extinction = subgroupBroadcast(mine.extinction, lane);
+    if (window.extinction < 0.0) {
+        window.lowWays = subgroupBroadcast(mine.lowWays, lane);
+        window.highWays = subgroupBroadcast(mine.highWays, lane);
+    }
     window.corners = subgroupBroadcast(mine.corners, lane);
     return window;
 }
@@ -187,32 +192,28 @@ float seenShare(Hidden hidden, uint i) {
     return 1.0 - 0.25 * float(int(bits.x + bits.y + bits.z + bits.w));
 }
 
+// Of the upright edges of the brick, for a column between them. `place`: of the column, from (0, 0)
+// to (1, 1).
+vec4 edgeWeights(vec2 place) {
+    return vec4((1.0 - place.x) * (1.0 - place.y), place.x * (1.0 - place.y),
+                (1.0 - place.x) * place.y, place.x * place.y);
+}
+
 // Of a cluster, by the foot and the top of the column: between the corners of the brick. `place`:
 // of the column, from (0, 0) to (1, 1).
 vec2 seenFromCorners(uint corners, vec2 place) {
-    vec4 weights = vec4((1.0 - place.x) * (1.0 - place.y), place.x * (1.0 - place.y),
-                        (1.0 - place.x) * place.y, place.x * place.y);
+    vec4 weights = edgeWeights(place);
     vec4 low = vec4((uvec4(corners) >> uvec4(0u, 4u, 8u, 12u)) & 0xfu);
     vec4 high = vec4((uvec4(corners) >> uvec4(16u, 20u, 24u, 28u)) & 0xfu);
     return 0.25 * vec2(dot(low, weights), dot(high, weights));
 }
 
-// The same where an entry has more faces than it could list.
-float seenThroughMany(Hidden hidden, FarWindow window, vec3 place, uint i, vec3 origin) {
-    for (uint p = 0u; p < 4u; ++p) {
-        if (isHiddenByAny(panePoint(window, p), place, origin)) {
-            hidden.nodes[p] |= 1u << i;
-        }
-    }
-    return seenShare(hidden, i);
-}
-
-// A window that is far enough to be a point with a second-order term, with all faces listed.
+// A window that is far enough to be a point with a second-order term.
 bool isQuick(FarWindow window, Column column) {
     vec3 gap = max(abs(window.centre) - column.halfSide, vec3(0.0));
-    return window.faceCount != kManyFaces && !window.isSphere &&
-           (window.extinction >= 0.0 || column.oneHaze) &&
-           (kFarEmitter != kEmitterPane || dot(gap, gap) > window.exactBelow);
+    return !window.isSphere &&
+           (window.extinction >= 0.0 || column.oneHaze || column.isCoarse) &&
+           (kFarEmitter != kEmitterPane || column.isCoarse || dot(gap, gap) > window.exactBelow);
 }
 
 struct QuickColumn {
@@ -228,6 +229,34 @@ float meanExtinction(FarWindow window, vec3 place, vec3 origin, FarFieldTable fi
            max(length(place - window.centre), kNearestPoint);
 }
 
+// 1/m, the means of the ways to nodes 0, 4 and 8.
+vec3 columnExtinction(FarWindow window, Column column, vec3 origin, FarFieldTable field) {
+    if (window.extinction >= 0.0) {
+        return vec3(window.extinction);
+    }
+    vec3 extinction;
+    for (uint i = 0u; !column.isCoarse && i < 3u; ++i) {
+        // Beyond the haze goes on what is at its border: there the field has no kink.
+        vec3 place = column.foot + vec3(0.0, 0.0, 4.0 * float(i) * column.spacing);
+        place = clamp(place, column.hazeLo, column.hazeHi);
+        extinction[i] = meanExtinction(window, place, origin, field);
+    }
+    if (!column.isCoarse) {
+        return extinction;
+    }
+    vec4 weights = edgeWeights(0.5 * column.foot.xy / column.halfSide + 0.5);
+    [[unroll]] for (uint i = 0u; i < 3u; ++i) {
+        vec4 edges = vec4(unpackHalf2x16(window.lowWays[i]), unpackHalf2x16(window.highWays[i]));
+        extinction[i] = dot(edges, weights);
+    }
+    return extinction;
+}
+
+float extinctionAt(vec3 extinction, uint i) {
+    return i <= 4u ? mix(extinction.x, extinction.y, 0.25 * float(i))
+                   : mix(extinction.y, extinction.z, 0.25 * float(i) - 1.0);
+}
+
 QuickColumn quickColumn(FarWindow window, Column column, vec3 origin, FarFieldTable field) {
     vec3 way = column.foot - window.centre;
     QuickColumn quick;
@@ -236,15 +265,7 @@ QuickColumn quickColumn(FarWindow window, Column column, vec3 origin, FarFieldTa
     quick.secondOrder = kFarEmitter == kEmitterPane
                             ? vec2(window.a * window.a, window.b * window.b)
                             : vec2(0.0);
-    quick.extinction = vec3(window.extinction);
-    if (window.extinction < 0.0) {
-        for (uint i = 0u; i < 3u; ++i) {
-            // Beyond the haze goes on what is at its border: there the field has no kink.
-            vec3 place = column.foot + vec3(0.0, 0.0, 4.0 * float(i) * column.spacing);
-            place = clamp(place, column.hazeLo, column.hazeHi);
-            quick.extinction[i] = meanExtinction(window, place, origin, field);
-        }
-    }
+    quick.extinction = columnExtinction(window, column, origin, field);
     quick.perDistance = kFarEmitter == kEmitterIsotropic ? 0.5 / kTurn : 2.0 / kTurn;
     quick.inverseRadius = 1.0 / (field.nearRadius * field.nearRadius);
     return quick;
@@ -264,8 +285,7 @@ float quickFluence(QuickColumn quick, uint i) {
         vec2 across = 5.0 * point.xy * point.xy * inverse - 1.0;
         clear *= 1.0 + 0.5 * inverse * dot(quick.secondOrder, across);
     }
-    float extinction = i <= 4u ? mix(quick.extinction.x, quick.extinction.y, 0.25 * float(i))
-                               : mix(quick.extinction.y, quick.extinction.z, 0.25 * float(i) - 1.0);
+    float extinction = extinctionAt(quick.extinction, i);
     return farShare(squared * quick.inverseRadius) * clear * exp(-extinction * distance);
 }
 

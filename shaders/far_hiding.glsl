@@ -87,7 +87,7 @@ bool findFaces(FarLight light, vec3 way, vec3 brickCentre, vec3 brickHalf, out F
         if (entry.faceCount < kFarFaces) {
             entry.face[entry.faceCount++] = index;
         } else {
-            entry.faceCount = kManyFaces;
+            entry.faceCount = kMesh;
         }
     }
     return true;

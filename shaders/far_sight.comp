@@ -13,13 +13,19 @@
 
 layout(local_size_x = kGroupSize) in;
 
-const float kManyBricks = 3.0;  // sides of a brick, distance of a window with many faces between
+const float kFullSpread = 20.0;     // near radii, up to which the spread is that of the table
+const float kLargestSpread = 0.25;
+const uint kBlurredScale = 2u;      // of bricks whose nodes are too far apart for single windows
+const uint kLargestHiddenFrom = 1u; // scale of bricks that one face often hides from a light
+const uint kWayEnds = 12u;          // as FarEntry has them
+const float kShortestWay = 1e-6;    // m
 
 // Lights still to be looked at. A round takes the last kGroupSize of them and puts
 // back at most two for each: as deep as the tree is, no more than kFarStack are there.
 shared uint stack[kFarStack];
 shared uint stackSize;
 shared uint bound;  // of the sums, in boundUnit
+shared vec3 wayEnds[kWayEnds];  // m, from the brick's centre
 
 bool hasChanged(uint light) {
     return (UintArray(bakeTable.changed).at[light >> 5] >> (light & 31u) & 1u) != 0u;
@@ -63,17 +69,57 @@ float largestFluence(FarLight light, vec3 way, vec3 brickHalf, float nearRadius)
     return 2.0 * light.power / (3.14159265 * max(dot(gap, gap), 0.25 * nearRadius * nearRadius));
 }
 
-// A light so small from here, with windows that face one way, is one point, seen from a brick
-// that is as small from there: its sight is interpolated. From where the share of the near
-// part ends.
-bool isCluster(FarLight light, vec3 way, vec3 brickHalf, float nearRadius) {
-    float gap = length(max(abs(way) - brickHalf, vec3(0.0)));
-    float reach = length(light.reach);
-    return max(reach, length(brickHalf)) <= bakeTable.spread * gap && gap >= nearRadius + reach &&
-           (light.coneCos >= kClusterCos || kFarEmitter == kEmitterIsotropic);
+// Of the distance, the share that a light may be half as large as to be one point. What is far
+// away is mostly hidden, and what a large brick says is less exact anyway.
+float spreadAt(float gap, FarBrick brick, float nearRadius) {
+    float growth = max(1.0, sqrt(gap / (kFullSpread * nearRadius))) * float(1u << brick.scale);
+    return min(bakeTable.spread * growth, max(bakeTable.spread, kLargestSpread));
 }
 
-// 1/m, the mean on the way to the brick; negative where nodes must ask themselves.
+// How a brick sees a light: window by window, as a point, or as one that its corners speak for.
+const uint kSeenApart = 0u;
+const uint kSeenAsPoint = 1u;
+const uint kSeenFromCorners = 2u;
+
+// A light so small from here, with windows that face one way, is one point: from where the share
+// of the near part ends, or where nodes are farther apart than it is large. From a brick that
+// is as small from there, its sight is interpolated.
+uint howSeen(FarLight light, vec3 way, vec3 brickHalf, FarBrick brick, float nearRadius) {
+    if (isWindow(light) || (light.coneCos < kClusterCos && kFarEmitter != kEmitterIsotropic)) {
+        return kSeenApart;
+    }
+    float gap = length(max(abs(way) - brickHalf, vec3(0.0)));
+    float reach = length(light.reach);
+    float spread = spreadAt(gap, brick, nearRadius);
+    bool isFar = reach <= spread * gap && gap >= nearRadius + reach;
+    if (isFar && length(brickHalf) <= spread * gap) {
+        return kSeenFromCorners;
+    }
+    bool isSmall = brick.scale >= kBlurredScale && bakeTable.spread > 0.0 &&
+                   reach * float(kBrickSteps) <= brickHalf.x;
+    return brick.scale > 0u && (isFar || isSmall) ? kSeenAsPoint : kSeenApart;
+}
+
+// The nearest place in the brick's haze: what is found there goes on beyond it, so that the field
+// has no kink at the border of the haze. From the brick's centre.
+vec3 inHaze(vec3 place, vec3 brickCentre, FarBrick brick) {
+    FarFieldTable field = bakedField;
+    vec3 nearest = place;
+    float least = 1e30;
+    for (uint i = 0u; i < brick.mediumCount; ++i) {
+        uint index = UintArray(field.mediumList).at[brick.firstMedium + i];
+        FarMedium medium = MediaArray(field.media).at[index];
+        vec3 inside = clamp(place, medium.lo - brickCentre, medium.hi - brickCentre);
+        float distance = dot(inside - place, inside - place);
+        if (distance < least) {
+            least = distance;
+            nearest = inside;
+        }
+    }
+    return nearest;
+}
+
+// 1/m, the mean on the way to the brick; negative where it differs from place to place.
 float extinctionOnTheWay(FarLight light, vec3 way, vec3 brickCentre, FarBrick brick,
                          bool cluster) {
     FarFieldTable field = bakedField;
@@ -84,29 +130,47 @@ float extinctionOnTheWay(FarLight light, vec3 way, vec3 brickCentre, FarBrick br
     return cluster ? depthThroughMedia(way, vec3(0.0), brickCentre, field) / length(way) : -1.0;
 }
 
-void append(uint index, FarLight light, bool cluster, vec3 brickCentre, vec3 brickHalf,
+float meanExtinction(vec3 way, uint end, vec3 brickCentre) {
+    vec3 place = wayEnds[end];
+    return depthThroughMedia(way, place, brickCentre, bakedField) /
+           max(length(place - way), kShortestWay);
+}
+
+// False where nothing of the light is seen.
+bool findSight(uint index, FarLight light, uint how, vec3 brickCentre, vec3 brickHalf,
+               FarBrick brick, out FarEntry entry) {
+    vec3 way = light.centre - brickCentre;
+    if (how == kSeenFromCorners) {
+        entry.faceCount = kCluster;
+        entry.face[0] = seenFromCorners(index, brick, brickCentre, brickHalf);
+        return entry.face[0] != 0u;
+    }
+    if (brick.scale == 0u) {
+        return findFaces(light, way, brickCentre, brickHalf, entry);
+    }
+    entry.faceCount = kFarVisibility == 0u ? 0u : kMesh;
+    return true;
+}
+
+void append(uint index, FarLight light, uint how, vec3 brickCentre, vec3 brickHalf,
             FarBrick brick, float nearRadius) {
     vec3 way = light.centre - brickCentre;
     FarEntry entry;
-    if (!cluster && !findFaces(light, way, brickCentre, brickHalf, entry)) {
+    if (!findSight(index, light, how, brickCentre, brickHalf, brick, entry)) {
         return;
     }
-    // Too many faces to list: sight from the corners will do where the window is far.
-    cluster = cluster || (entry.faceCount == kManyFaces &&
-                          isCluster(light, way, brickHalf, kManyBricks * 2.0 * brickHalf.x));
-    if (cluster) {
-        entry.faceCount = kCluster;
-        entry.face[0] = seenFromCorners(index, brick, brickCentre, brickHalf);
-        if (entry.face[0] == 0u) {
-            return;
-        }
-    }
-    entry.light = index;
-    entry.extinction = extinctionOnTheWay(light, way, brickCentre, brick, cluster);
     float most = largestFluence(light, way, brickHalf, nearRadius);
     atomicAdd(bound, 1u + uint(most / bakeTable.boundUnit));
     if (!hasChanged(index)) {
         return;
+    }
+    entry.light = index;
+    entry.extinction =
+        extinctionOnTheWay(light, way, brickCentre, brick, how == kSeenFromCorners);
+    bool differs = entry.extinction < 0.0 && brick.scale > 0u;
+    for (uint i = 0u; differs && i < kWayEnds / 2u; ++i) {
+        entry.ways[i] = packHalf2x16(vec2(meanExtinction(way, 2u * i, brickCentre),
+                                          meanExtinction(way, 2u * i + 1u, brickCentre)));
     }
     uint slot = atomicAdd(UintArray(bakeTable.entryCounts).at[groupInBatch()], 1u);
     if (slot < bakeTable.entryCapacity) {
@@ -123,6 +187,10 @@ void main() {
     vec3 brickCentre = brickCorner(field, brick) + brickHalf;
     for (uint i = thread; i < bakeTable.rootCount; i += kGroupSize) {
         stack[i] = UintArray(bakeTable.roots).at[i];
+    }
+    if (thread < kWayEnds) {
+        vec3 side = vec3(thread & 1u, thread >> 1 & 1u, 0.5 * float(thread >> 2)) * 2.0 - 1.0;
+        wayEnds[thread] = inHaze(side * brickHalf, brickCentre, brick);
     }
     if (thread == 0u) {
         stackSize = bakeTable.rootCount;
@@ -142,12 +210,11 @@ void main() {
             FarLight light = FarLightArray(bakeTable.lights).at[index];
             vec3 way = brickCentre - light.centre;
             if (!facesAway(light, way, brickHalf)) {
-                bool cluster = !isWindow(light) &&
-                               isCluster(light, way, brickHalf, field.nearRadius);
-                if (cluster || isWindow(light)) {
-                    append(index, light, cluster, brickCentre, brickHalf, brick,
-                           field.nearRadius);
-                } else if (!isHidden(light, -way, brickCentre, brickHalf)) {
+                uint how = howSeen(light, -way, brickHalf, brick, field.nearRadius);
+                if (how != kSeenApart || isWindow(light)) {
+                    append(index, light, how, brickCentre, brickHalf, brick, field.nearRadius);
+                } else if (brick.scale > kLargestHiddenFrom ||
+                           !isHidden(light, -way, brickCentre, brickHalf)) {
                     uint slot = atomicAdd(stackSize, 2u);
                     stack[slot] = index + 1u;
                     stack[slot + 1u] = light.second;

@@ -9,6 +9,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "far_column.glsl"
+#include "far_mesh.glsl"
 
 layout(local_size_x = kColumnThreads) in;
 
@@ -33,7 +34,9 @@ void main() {
     FarMedium haze = MediaArray(field.media).at[UintArray(field.mediumList).at[brick.firstMedium]];
     column.hazeLo = haze.lo - origin;
     column.hazeHi = haze.hi - origin;
+    column.isCoarse = brick.scale > 0u;
     column.oneHaze = brick.mediumCount == 1u;
+    MeshColumn mesh = meshColumn(thread);
     float perUnit = 1.0 / FloatArray(bakeTable.units).at[groupBrick()];
     uint firstEntry = groupInBatch() * bakeTable.entryCapacity;
     uint entries = UintArray(bakeTable.entryCounts).at[groupInBatch()];
@@ -70,21 +73,34 @@ void main() {
                 }
                 continue;
             }
+            float seen[kColumnNodes];
+            if (window.faceCount == kMesh) {
+                MeshSight sight = meshSight(firstEntry + first + e, mesh);
+                if (subgroupAll(isDark(sight))) {
+                    continue;
+                }
+                [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+                    seen[i] = meshShare(sight, mesh, i);
+                }
+            } else {
+                [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+                    seen[i] = seenShare(hidden, i);
+                }
+            }
             if (isQuick(window, column)) {
                 QuickColumn quick = quickColumn(window, column, origin, field);
                 [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-                    sum[i] +=
-                        inUnits(seenShare(hidden, i) * quickFluence(quick, i), emission, baked);
+                    sum[i] += inUnits(seen[i] * quickFluence(quick, i), emission, baked);
                 }
                 continue;
             }
             [[dont_unroll]] for (uint i = 0u; isThere && i < kColumnNodes; ++i) {
                 vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
-                float seen = window.faceCount == kManyFaces
-                                 ? seenThroughMany(hidden, window, place, i, origin)
-                                 : seenShare(hidden, i);
-                if (seen > 0.0) {
-                    float perWatt = seen * farFluencePerWatt(window, origin, place, field);
+                if (seen[i] > 0.0) {
+                    float extinction = window.extinction >= 0.0
+                                           ? window.extinction
+                                           : meanExtinction(window, place, origin, field);
+                    float perWatt = seen[i] * farFluencePerWatt(window, place, extinction, field);
                     sums.at[firstNode + i * kNodesALayer] += inUnits(perWatt, emission, baked);
                 }
             }

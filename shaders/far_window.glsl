@@ -25,6 +25,7 @@ struct FarWindow {
     bool isSphere;
     uint faceCount;     // as FarEntry has it
     float extinction;   // and this
+    uvec3 lowWays, highWays;  // and these
     uint corners;       // of a cluster: what the corners of the brick see
 };
 
@@ -33,10 +34,11 @@ FarWindow clusterWindow(FarLight light, vec3 origin) {
     found.centre = light.centre - origin;
     found.a = 0.0;
     found.b = 0.0;
-    found.normal = light.axis;
-    vec3 other = abs(light.axis.z) < 0.7 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
-    found.u = normalize(cross(other, light.axis));
-    found.v = cross(light.axis, found.u);
+    // Isotropic windows have no axis: any will do.
+    found.normal = kFarEmitter == kEmitterIsotropic ? vec3(0.0, 0.0, 1.0) : light.axis;
+    vec3 other = abs(found.normal.z) < 0.7 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
+    found.u = normalize(cross(other, found.normal));
+    found.v = cross(found.normal, found.u);
     found.exactBelow = 0.0;
     found.isSphere = false;
     return found;
@@ -49,6 +51,12 @@ FarWindow farWindow(uint index, vec3 origin) {
     found.faceCount = entries.at[index].faceCount;
     found.extinction = entries.at[index].extinction;
     found.corners = entries.at[index].face[0];
+    if (found.extinction < 0.0) {
+        for (uint i = 0u; i < 3u; ++i) {
+            found.lowWays[i] = entries.at[index].ways[2u * i];
+            found.highWays[i] = entries.at[index].ways[2u * i + 1u];
+        }
+    }
     if (light.second != 0u) {
         return found;
     }
@@ -90,7 +98,8 @@ float clearFluence(FarWindow window, vec3 way, float squared) {
     return paneSolidAngle(point, window.a, window.b) / (2.0 * kTurn * window.a * window.b);
 }
 
-float farFluencePerWatt(FarWindow window, vec3 origin, vec3 place, FarFieldTable field) {
+// `extinction`: 1/m, the mean on the way.
+float farFluencePerWatt(FarWindow window, vec3 place, float extinction, FarFieldTable field) {
     vec3 way = place - window.centre;
     float squared = dot(way, way);
     float share = farShare(squared / (field.nearRadius * field.nearRadius));
@@ -101,10 +110,7 @@ float farFluencePerWatt(FarWindow window, vec3 origin, vec3 place, FarFieldTable
     if (clear == 0.0) {
         return 0.0;
     }
-    float depth = window.extinction >= 0.0
-                      ? window.extinction * sqrt(squared)
-                      : depthThroughMedia(window.centre, place, origin, field);
-    return share * clear * exp(-depth);
+    return share * clear * exp(-extinction * sqrt(squared));
 }
 
 #endif

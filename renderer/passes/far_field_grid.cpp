@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "far_finish_spirv.h"
+#include "far_mesh_spirv.h"
 #include "far_sides_spirv.h"
 #include "far_sight_spirv.h"
 #include "far_sum_spirv.h"
@@ -22,7 +23,7 @@ static_assert(sizeof(FarMedium) == 32);
 static_assert(sizeof(FarBrick) == 24);
 static_assert(sizeof(FarFieldTable) == 5 * 8 + 36);
 static_assert(sizeof(FarLight) == 56);
-static_assert(sizeof(FarEntry) == 12 + 4 * kFarFaces);
+static_assert(sizeof(FarEntry) == 36 + 4 * kFarFaces);
 static_assert(sizeof(FarBakeTable) == 12 * 8 + 28);
 
 constexpr std::uint32_t kBatchBricks = 512;
@@ -86,6 +87,7 @@ void FarFieldGrid::makePipelines(const FarFieldSettings& settings) {
     const std::vector<std::uint32_t> constants{emitterConstant(settings.emitter), visibility, mean};
     sides_ = makePipeline(device_, "far sides", kFarSidesSpirv, {}, constants);
     sight_ = makePipeline(device_, "far sight", kFarSightSpirv, {}, constants);
+    mesh_ = makePipeline(device_, "far mesh", kFarMeshSpirv, {}, constants);
     sum_ = makePipeline(device_, "far sum", kFarSumSpirv, {}, constants);
     finish_ = makePipeline(device_, "far finish", kFarFinishSpirv, {}, constants);
     hasPipelines_ = true;
@@ -133,11 +135,11 @@ void FarFieldGrid::uploadLights() {
     bake_.emission = addressWords(emission_.address());
     bake_.baked = addressWords(bakedEmission_.address());
     bake_.changed = addressWords(changed_.address());
-    // The largest that one window brings anywhere (far_sight.comp), in 2^18 parts: so the
-    // bounds of 2^14 windows at arm's length still fit.
+    // The largest that one window brings anywhere (far_sight.comp), in 2^14 parts: so the
+    // bounds of 2^18 windows at arm's length still fit.
     const double radius = settings_.nearRadius;
     const double largest = 8.0 * double(lights_.strongest) / (std::numbers::pi * radius * radius);
-    bake_.boundUnit = float(std::max(largest, 1e-30) / 262144.0);
+    bake_.boundUnit = float(std::max(largest, 1e-30) / 16384.0);
     makeEntryBuffers(kFirstCapacity);
 }
 
@@ -220,6 +222,9 @@ void FarFieldGrid::findSides(VkDeviceAddress sceneTable) {
 void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
                                VkDeviceAddress sceneTable) {
     const std::vector<vec3> emission = emissionOf(lights_, scene, windowOn);
+    if (hasSums_) {
+        passTimes_.clear();
+    }
     if (hasSums_ && emission == baked_) {
         return;
     }
@@ -258,6 +263,7 @@ void FarFieldGrid::bakeBricks(VkDeviceAddress sceneTable) {
             writeTables();
             continue;
         }
+        dispatch("far mesh", mesh_, push);
         dispatch("far sum", sum_, push);
         first += batch.count;
     }

@@ -32,7 +32,7 @@ struct FarFieldSettings {
     bool keepMean = true;  // nodes hold what keeps the mean between them, not what is at them
     float spread = 0.06f;  // windows within this share of their distance are one; 0: never
     std::vector<vec3> eyes;  // m, where the camera of the shot is (FarDetail)
-    std::uint64_t mostBricks = 12000;           // FarDetail; with eyes
+    std::uint64_t mostBricks = 4000;            // FarDetail; with eyes
     std::uint64_t memoryBytes = 1'000'000'000;  // of the bricks, most
 
     bool operator==(const FarFieldSettings&) const = default;
@@ -59,7 +59,7 @@ public:
     std::uint64_t nodeCount() const { return layout_.nodes(); }
     std::uint64_t brickCount() const { return layout_.bricks.size(); }
     std::uint64_t bytes() const;  // on the device
-    // What the device took for the last syncGeometry and what followed it, by pass.
+    // What the device took for the last syncWindowState, by pass, with the syncGeometry before it.
     const std::vector<PassTime>& passTimes() const { return passTimes_; }
 
 private:
@@ -105,7 +105,7 @@ private:
     std::vector<PassTime> passTimes_;
     FarFieldTable contents_{};
     FarBakeTable bake_{};
-    gpu::ComputePipeline sides_, sight_, sum_, finish_;
+    gpu::ComputePipeline sides_, sight_, mesh_, sum_, finish_;
 };
 
 }  // namespace nightcity

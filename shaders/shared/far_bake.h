@@ -19,8 +19,9 @@ NIGHTCITY_BEGIN
 NIGHTCITY_CONST uint kBrickSideWords = (kBrickNodes + 31u) / 32u;
 NIGHTCITY_CONST uint kColumnThreads = 96u;  // at least the columns of a brick
 NIGHTCITY_CONST uint kFarStack = 6144u;     // lights that a group keeps for later, most
-NIGHTCITY_CONST uint kFarFaces = 29u;       // of one entry
-NIGHTCITY_CONST uint kManyFaces = 0xffu;    // more: each node walks the tree of occluders
+NIGHTCITY_CONST uint kFarFaces = 23u;       // of one entry
+NIGHTCITY_CONST uint kMesh = 0xffu;         // sight is that from a mesh of every other node
+NIGHTCITY_CONST uint kMeshSide = kBrickSteps / 2u + 1u;  // of its points along each axis
 NIGHTCITY_CONST uint kCluster = 0x100u;     // sight is that from the brick's corners
 // m: a node so near to the plane of a face lies on it, and is seen from both of its sides: most
 // walls lie on planes of nodes, and the air before them reads their nodes.
@@ -43,9 +44,12 @@ struct FarLight {
 // is far enough to be one point.
 struct FarEntry {
     uint light;
-    float extinction;  // 1/m, mean of all ways to the brick; negative: ask the media
-    uint faceCount;    // or kManyFaces, or kCluster
-    uint face[kFarFaces];  // of a cluster: 4 bits a corner of the brick, quarters that are seen
+    float extinction;  // 1/m, mean of all ways to the brick; negative: it differs
+    uint faceCount;    // or kMesh, or kCluster
+    uint ways[6];      // where it differs, of a brick above scale 0: 1/m, the means of the ways to
+                       // its four upright edges, as halves: at the foot, half way up, at the top
+    uint face[kFarFaces];  // of a cluster: 4 bits a corner of the brick, quarters that are seen;
+                           // of a mesh: a word a layer, a bit a point that sees the light
 };
 
 struct FarBakeTable {

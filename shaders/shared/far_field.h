@@ -15,7 +15,7 @@ NIGHTCITY_BEGIN
 
 NIGHTCITY_CONST uint kBrickSteps = 8u;   // from node to node along each side of a brick
 NIGHTCITY_CONST uint kBrickNodes = (kBrickSteps + 1u) * (kBrickSteps + 1u) * (kBrickSteps + 1u);
-NIGHTCITY_CONST uint kBrickScales = 8u;  // a brick of scale s is 1 << s lattice cells a side
+NIGHTCITY_CONST uint kBrickScales = 6u;  // a brick of scale s is 1 << s lattice cells a side
 NIGHTCITY_CONST uint kScaleShift = 28u;  // of the index: bricks are fewer than 1 << kScaleShift
 
 // Homogeneous haze in a box; equal neighbours are one where together they are a box.

@@ -30,6 +30,15 @@ FarFieldSettings spaced(float spacing) {
     return settings;
 }
 
+// From 0.7 m on beside a corner of the paper's smallest city.
+FarFieldSettings ofScales() {
+    FarFieldSettings settings = spaced(0.7f);
+    settings.nearRadius = 4;
+    settings.eyes = {{-14, -14, 2}};
+    settings.mostBricks = 100;
+    return settings;
+}
+
 // Of the far part, over all of the fluence or 1 % of its median.
 struct Errors {
     double p50 = 0, p95 = 0, bias = 0;
@@ -228,6 +237,20 @@ TEST_F(FarFieldStates, AToggledStateEqualsAFreshBakeToTheBit) {
 
 // Two windows of equal power, one on and one off, change places: the sums of the tree above
 // them stay the same.
+TEST_F(FarFieldStates, TheSameWithBricksOfSeveralScales) {
+    settings_ = ofScales();
+    std::vector<std::uint8_t> some(scene_.windows.size(), 1), most = some;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        some[i] = i % 3 == 0;
+        most[i] = i % 50 != 0;
+    }
+    const auto fresh = bakedAfresh(most);
+    device().setWindows(scene_, some);
+    EXPECT_NE(device().nodes(), fresh);
+    device().setWindows(scene_, most);
+    EXPECT_EQ(device().nodes(), fresh);
+}
+
 TEST_F(FarFieldStates, ASwapOfTwoWindowsIsSeen) {
     std::vector<std::uint8_t> one(scene_.windows.size(), 0), other = one;
     one[0] = other[3] = 1;
@@ -250,10 +273,12 @@ TEST_F(FarFieldStates, TheOrderOfTheWindowsDoesNotMatter) {
     EXPECT_EQ(device().nodes(), nodes);
 }
 
-TEST(FarField, ClustersKeepTheLight) {
+// Sums over places of what single windows and clusters of them bring.
+void expectClustersToKeepTheLight(Emitter emitter) {
     const FlatScene scene = paperCity(2).load();
     const std::vector<glm::vec3> places = placesInTheAir(scene, 2000, 6);
     FarFieldSettings settings = spaced(1);
+    settings.emitter = emitter;
     const auto sumOf = [&](float spread) {
         settings.spread = spread;
         device().sync(scene, settings);
@@ -268,6 +293,14 @@ TEST(FarField, ClustersKeepTheLight) {
     for (int channel = 0; channel < 3; ++channel) {
         EXPECT_NEAR(clusters[channel] / each[channel], 1, 0.01);
     }
+}
+
+TEST(FarField, ClustersKeepTheLight) {
+    expectClustersToKeepTheLight(Emitter::pane);
+}
+
+TEST(FarField, ClustersOfIsotropicWindowsKeepTheLight) {
+    expectClustersToKeepTheLight(Emitter::isotropic);
 }
 
 TEST(FarField, IntegratesThroughDifferentMedia) {
@@ -344,6 +377,16 @@ TEST(FarField, IsTheSameTenKilometresAway) {
         sum += double(expected[i].y);
     }
     EXPECT_LT(difference, 1e-3 * sum);
+}
+
+TEST(FarField, BricksOfSeveralScalesAgreeWithTheJudge) {
+    const FlatScene scene = paperCity(1).load();
+    const Errors errors = bakeAndCompare(scene, ofScales());
+    const std::uint64_t bricks = device().field().brickCount();
+    EXPECT_LE(bricks, 100u);
+    EXPECT_LT(errors.p50, 0.03);
+    EXPECT_LT(errors.p95, 0.25);
+    EXPECT_LT(std::abs(errors.bias), 0.03);
 }
 
 TEST(FarField, RefusesWhatDoesNotFitItsMemory) {

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sight of lights with more faces before them than an entry lists, or from a brick too large
+// for lists: known at every other node of a brick along each axis, and between these the mean of
+// those around that lie in the air.
+#ifndef NIGHTCITY_SHADERS_FAR_MESH_GLSL
+#define NIGHTCITY_SHADERS_FAR_MESH_GLSL
+
+#include "far_bake.glsl"
+
+const float kSolidWeight = 1e-3;  // of points in a solid, which count only where there are no others
+
+// Of an upright column of nodes, in each layer of the mesh.
+struct MeshColumn {
+    uvec4 around;            // bits of the four points about it; some are one where it runs
+                             // through them
+    vec4 weight[kMeshSide];
+};
+
+// Bits of a layer's word: which points see the light.
+struct MeshSight {
+    float seen[kMeshSide];  // sum of the weights of those that do
+};
+
+float meshWeight(uint point, uint layer) {
+    uint node = nodeAt(2u * uvec3(point % kMeshSide, point / kMeshSide, layer));
+    uint word = UintArray(bakeTable.sides).at[groupBrick() * kBrickSideWords + (node >> 5)];
+    return (word >> (node & 31u) & 1u) == 0u ? 1.0 : kSolidWeight;
+}
+
+// `column`: number of its foot among the nodes.
+MeshColumn meshColumn(uint column) {
+    uvec2 place = nodePlace(column).xy;
+    uvec2 low = place / 2u;
+    uvec2 high = (place + 1u) / 2u;
+    MeshColumn found;
+    found.around = uvec4(low.y, low.y, high.y, high.y) * kMeshSide +
+                   uvec4(low.x, high.x, low.x, high.x);
+    [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
+        [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+            found.weight[layer][i] = meshWeight(found.around[i], layer);
+        }
+    }
+    return found;
+}
+
+MeshSight meshSight(uint entry, MeshColumn column) {
+    MeshSight sight;
+    [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
+        uint word = FarEntryArray(bakeTable.entries).at[entry].face[layer];
+        vec4 sees = vec4((uvec4(word) >> column.around) & 1u);
+        sight.seen[layer] = dot(sees, column.weight[layer]);
+    }
+    return sight;
+}
+
+bool isDark(MeshSight sight) {
+    float sum = 0.0;
+    [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
+        sum += sight.seen[layer];
+    }
+    return sum == 0.0;
+}
+
+// From node i of the column.
+float meshShare(MeshSight sight, MeshColumn column, uint i) {
+    uint low = i / 2u;
+    uint high = (i + 1u) / 2u;
+    vec4 weights = column.weight[low] + column.weight[high];
+    return (sight.seen[low] + sight.seen[high]) / dot(weights, vec4(1.0));
+}
+
+#endif
