@@ -28,6 +28,10 @@ struct FarStep {
 };
 constexpr FarStep kFarSteps[] = {{0.03, 1.0f}, {0.01, 0.5f}};
 constexpr float kWidestSpacing = 1.43f;  // m, for larger tolerances
+// Near windows cost as the square of the near radius; below so many spacings the far part has
+// peaks that the nodes miss.
+constexpr float kRadiusSpacings = 5;
+constexpr float kLargestRadius = 4;  // m
 
 float farSpacing(double tolerance) {
     for (const FarStep& step : std::views::reverse(kFarSteps)) {
@@ -46,6 +50,7 @@ FarFieldSettings farFieldSettings(const RenderSettings& settings, const CameraTr
     far.emitter = settings.model.emitter;
     far.visibility = settings.model.visibility;
     far.spacing = farSpacing(settings.tolerance.value_or(kFieldTolerance));
+    far.nearRadius = std::min(kRadiusSpacings * far.spacing, kLargestRadius);
     return far;
 }
 

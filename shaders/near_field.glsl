@@ -9,7 +9,7 @@
 #include "transport/near_window.h"
 
 layout(constant_id = NIGHTCITY_CONSTANT_SPHERES) const bool kSpheres = false;
-layout(constant_id = NIGHTCITY_CONSTANT_CUT_EDGES) const bool kCutEdges = true;
+layout(constant_id = NIGHTCITY_CONSTANT_CUT_ALL) const bool kCutAll = true;
 layout(constant_id = NIGHTCITY_CONSTANT_THIN_HAZE) const bool kThinHaze = false;
 
 // The ray about the pane, its parameter still that of `ray`.
@@ -68,7 +68,7 @@ vec3 nearBesidePanes(PaneList list, NearPiece piece) {
         PaneFrame frame = nearFrame(pane, piece.ray);
         vec2 chord = nearChord(frame, piece.radius, 0.0, piece.span);
         NearPass pass = nearPass(frame, chord, 0.0);
-        if (chord.x < chord.y && (!kCutEdges || pass.sides > kNearCutSides) &&
+        if (chord.x < chord.y && !isNearCut(pass, frame, kCutAll) &&
             (!kSpheres || (pane.flags & kWindowSphere) == 0u)) {
             sum += pane.radiance *
                    nearBeside(pass, frame, piece.radius, piece.extinction, piece.tolerance,
@@ -86,7 +86,7 @@ vec3 nearEdgesOfPanes(PaneList list, NearPiece piece) {
         PaneFrame frame = nearFrame(pane, piece.ray);
         vec2 chord = nearChord(frame, piece.radius, 0.0, piece.span);
         NearPass pass = nearPass(frame, chord, 0.0);
-        if (chord.x < chord.y && pass.sides <= kNearCutSides &&
+        if (chord.x < chord.y && isNearCut(pass, frame, kCutAll) &&
             (!kSpheres || (pane.flags & kWindowSphere) == 0u)) {
             sum += pane.radiance *
                    nearAtEdges(pass, frame, piece.radius, piece.extinction, piece.tolerance);
@@ -117,10 +117,7 @@ vec3 nearSpheres(PaneList list, NearPiece piece) {
 vec3 nearGlow(NearPiece piece, uint tile, GlowTable table) {
     GlowTile found = GlowTileArray(table.tiles).at[tile];
     PaneList list = PaneList(table.tilePanes, found.firstPane, found.firstPane + found.paneCount);
-    vec3 sum = nearBesidePanes(list, piece);
-    if (kCutEdges) {
-        sum += nearEdgesOfPanes(list, piece);
-    }
+    vec3 sum = nearBesidePanes(list, piece) + nearEdgesOfPanes(list, piece);
     if (kSpheres) {
         sum += nearSpheres(list, piece);
     }

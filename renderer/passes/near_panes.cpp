@@ -50,7 +50,7 @@ Bounds reachOf(const NearPane& pane, double radius) {
 }  // namespace
 
 NearKinds NearPanes::kinds(double tolerance) const {
-    // From 0.5 % on eight nodes along the whole ray do (transport/near_window.h).
+    // From 0.5 % on a ray that does not graze needs no cuts (transport/near_window.h).
     return {hasSpheres, tolerance < 0.005, opticalHalf <= tolerance};
 }
 

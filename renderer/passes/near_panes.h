@@ -16,7 +16,7 @@ namespace nightcity {
 // What their integrals need not look at, for a tolerance.
 struct NearKinds {
     bool spheres = false;   // some windows are
-    bool cutEdges = true;   // rays are cut at the edges of panes that they pass close by
+    bool cutAll = true;     // all rays are cut at the edges of panes close by, not only grazing ones
     bool thinHaze = false;  // a pane's light is attenuated as from its centre
 
     bool operator==(const NearKinds&) const = default;

@@ -15,7 +15,7 @@ NIGHTCITY_BEGIN
 
 // Specialization constants of glow_trace.comp.
 #define NIGHTCITY_CONSTANT_SPHERES 0    // 1: some windows are spheres
-#define NIGHTCITY_CONSTANT_CUT_EDGES 1  // 1: rays are cut at the edges of panes close by
+#define NIGHTCITY_CONSTANT_CUT_ALL 1    // as isNearCut of transport/near_window.h has it
 #define NIGHTCITY_CONSTANT_THIN_HAZE 2  // 1: as nearPiece of transport/near_window.h has it
 
 NIGHTCITY_CONST uint kGlowCell = 4u;    // pixels a side of a cell; bit 4 row + column of a mask

@@ -48,9 +48,9 @@ double solidAngle(glm::dvec3 x, double a, double b) {
 
 double nearWindow(const NearCase& c, vec2 chord, float begin, float extinction, float tolerance) {
     const NearPass pass = nearPass(c.pane, chord, begin);
-    return pass.sides > kNearCutSides
-               ? nearBeside(pass, c.pane, float(kRadius), extinction, tolerance, false)
-               : nearAtEdges(pass, c.pane, float(kRadius), extinction, tolerance);
+    return isNearCut(pass, c.pane, tolerance < 0.005f)
+               ? nearAtEdges(pass, c.pane, float(kRadius), extinction, tolerance)
+               : nearBeside(pass, c.pane, float(kRadius), extinction, tolerance, extinction == 0);
 }
 
 struct Exact {
@@ -103,6 +103,28 @@ TEST(NearWindow, HoldsTheToleranceOnRandomRays) {
         const ErrorFigures thousandth = figures(0.001f, extinction, 600);
         EXPECT_LT(thousandth.p50, 1e-4);
         EXPECT_LT(thousandth.p99, 1.5e-3);
+    }
+}
+
+// Within 0.3 m of the pane and nearly along it, where the solid angle is a plateau with steep
+// flanks.
+TEST(NearWindow, HoldsAlongThePane) {
+    RandomNumbers random(11);
+    for (int i = 0; i < 200; ++i) {
+        NearCase c;
+        c.pane.a = 0.6f;
+        c.pane.b = 0.75f;
+        const double turn = random.between(0, 2 * M_PI);
+        const glm::dvec3 w = glm::normalize(
+            glm::dvec3(std::cos(turn), std::sin(turn), random.between(-0.05, 0.05)));
+        const double away = std::pow(10.0, random.between(-2, -0.5));
+        const glm::dvec3 through(random.between(-0.5, 0.5), random.between(-0.5, 0.5), away);
+        c.pane.direction = glm::vec3(w);
+        c.pane.origin = glm::vec3(through - 5.0 * w);
+        c.chord = nearChord(c.pane, float(kRadius), 0, 1000);
+        const Exact exact = exactNear(c, 0.01);
+        const double found = nearWindow(c, c.chord, c.chord.x, 0.01f, 0.01f);
+        EXPECT_NEAR(found, exact.near, 0.03 * exact.whole) << "ray " << i;
     }
 }
 
