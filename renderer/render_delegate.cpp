@@ -30,7 +30,7 @@ constexpr FarStep kFarSteps[] = {{0.03, 1.0f}, {0.01, 0.5f}};
 constexpr float kWidestSpacing = 1.43f;  // m, for larger tolerances
 // Near windows cost as the square of the near radius; below so many spacings the far part has
 // peaks that the nodes miss.
-constexpr float kRadiusSpacings = 5;
+constexpr float kRadiusSpacings = 6;
 constexpr float kLargestRadius = 4;  // m
 
 float farSpacing(double tolerance) {
