@@ -154,11 +154,12 @@ vec3 glowOfAll(Stretch stretch, float scale, float soFar) {
         return glow;
     }
     float allPower = LightNodeArray(sceneTable.lightNodes).at[0].power;
+    float share = shareOfDepth(stretch);
     uint open = 1u;
     openNodes[0] = 0u;
     while (open > 0u) {
         uint count = 0u;
-        float least = kLeftOut * frameTable.tolerance * (soFar + meanOf(glow));
+        float least = kLeftOut * frameTable.tolerance * (share * soFar + meanOf(glow));
         while (open > 0u && count < kBatch) {
             uint index = openNodes[--open];
             LightNode node = LightNodeArray(sceneTable.lightNodes).at[index];

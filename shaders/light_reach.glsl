@@ -3,7 +3,9 @@
 //
 // The windows that light a stretch, by the tree over them, near ones first. A node is left out
 // only where all that it can add is below its share, by power, of a quarter of the tolerance
-// of what was found before, or where all its windows are seen from behind.
+// of what was found before, or where all its windows are seen from behind. What was found in
+// stretches before counts by this one's share of the optical depth up to its end, so that haze in
+// many boxes loses no more than haze in one, but for a factor that grows as their logarithm.
 #ifndef NIGHTCITY_SHADERS_LIGHT_REACH_GLSL
 #define NIGHTCITY_SHADERS_LIGHT_REACH_GLSL
 
@@ -19,6 +21,12 @@ uint openNodes[kDeepestNode];
 
 float meanOf(vec3 colour) {
     return (colour.r + colour.g + colour.b) / 3.0;
+}
+
+// Of the optical depth up to the end of the stretch.
+float shareOfDepth(Stretch stretch) {
+    float depth = stretch.extinction * stretch.span;
+    return depth / (stretch.depthBefore + depth);
 }
 
 // From the nearest place of the stretch to a ball about `centre`, m.

@@ -60,36 +60,23 @@ uint nextPaneBy(inout PaneList list, NearPiece piece, bool isCloseBy) {
     return found;
 }
 
-vec3 nearBesidePanes(PaneList list, NearPiece piece) {
+// Of the panes whose integrals are taken in pieces, or of the others: each kind in a loop of its
+// own, for the pieces are few and long.
+vec3 nearPanes(PaneList list, NearPiece piece, bool inPieces) {
     vec3 sum = vec3(0.0);
-    for (uint index = nextPaneBy(list, piece, false); index != kNone;
-         index = nextPaneBy(list, piece, false)) {
+    for (uint index = nextPaneBy(list, piece, inPieces); index != kNone;
+         index = nextPaneBy(list, piece, inPieces)) {
         NearPane pane = NearPaneArray(nearTable.panes).at[index];
         PaneFrame frame = nearFrame(pane, piece.ray);
         vec2 chord = nearChord(frame, piece.radius, 0.0, piece.span);
         NearPass pass = nearPass(frame, chord, 0.0);
-        if (chord.x < chord.y && !isNearCut(pass, frame, kCutAll) &&
+        if (chord.x < chord.y && isNearCut(pass, frame, kCutAll) == inPieces &&
             (!kSpheres || (pane.flags & kWindowSphere) == 0u)) {
-            sum += pane.radiance *
-                   nearBeside(pass, frame, piece.radius, piece.extinction, piece.tolerance,
-                              kThinHaze);
-        }
-    }
-    return sum;
-}
-
-vec3 nearEdgesOfPanes(PaneList list, NearPiece piece) {
-    vec3 sum = vec3(0.0);
-    for (uint index = nextPaneBy(list, piece, true); index != kNone;
-         index = nextPaneBy(list, piece, true)) {
-        NearPane pane = NearPaneArray(nearTable.panes).at[index];
-        PaneFrame frame = nearFrame(pane, piece.ray);
-        vec2 chord = nearChord(frame, piece.radius, 0.0, piece.span);
-        NearPass pass = nearPass(frame, chord, 0.0);
-        if (chord.x < chord.y && isNearCut(pass, frame, kCutAll) &&
-            (!kSpheres || (pane.flags & kWindowSphere) == 0u)) {
-            sum += pane.radiance *
-                   nearAtEdges(pass, frame, piece.radius, piece.extinction, piece.tolerance);
+            float light = inPieces ? nearAtEdges(pass, frame, piece.radius, piece.extinction,
+                                                 piece.tolerance)
+                                   : nearBeside(pass, frame, piece.radius, piece.extinction,
+                                                piece.tolerance, kThinHaze);
+            sum += pane.radiance * light;
         }
     }
     return sum;
@@ -117,7 +104,7 @@ vec3 nearSpheres(PaneList list, NearPiece piece) {
 vec3 nearGlow(NearPiece piece, uint tile, GlowTable table) {
     GlowTile found = GlowTileArray(table.tiles).at[tile];
     PaneList list = PaneList(table.tilePanes, found.firstPane, found.firstPane + found.paneCount);
-    vec3 sum = nearBesidePanes(list, piece) + nearEdgesOfPanes(list, piece);
+    vec3 sum = nearPanes(list, piece, false) + nearPanes(list, piece, true);
     if (kSpheres) {
         sum += nearSpheres(list, piece);
     }
