@@ -32,7 +32,7 @@ struct FarFieldSettings {
     bool keepMean = true;  // nodes hold what keeps the mean between them, not what is at them
     float spread = 0.06f;  // windows within this share of their distance are one; 0: never
     std::vector<vec3> eyes;  // m, where the camera of the shot is (FarDetail)
-    std::uint64_t mostBricks = 4000;            // FarDetail; with eyes
+    std::uint64_t mostBricks = 6000;            // FarDetail; with eyes
     std::uint64_t memoryBytes = 1'000'000'000;  // of the bricks, most
 
     bool operator==(const FarFieldSettings&) const = default;
