@@ -40,6 +40,18 @@ struct PassTime {
     double milliseconds = 0;
 };
 
+// To what the pass took before, or as the last pass.
+inline void addPassTime(std::vector<PassTime>& passes, const std::string& name,
+                        double milliseconds) {
+    for (PassTime& pass : passes) {
+        if (pass.name == name) {
+            pass.milliseconds += milliseconds;
+            return;
+        }
+    }
+    passes.push_back({name, milliseconds});
+}
+
 // Whatever depends on the camera is frame; what depends only on the scene is bake.
 struct RenderStatistics {
     double frameMilliseconds = 0;   // of the last render call, from submission to the last fence

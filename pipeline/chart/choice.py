@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nightcity.chart.errors import LUMINANCE, relative_errors
-from nightcity.chart.needs import PERCENTILE
+from nightcity.chart.needs import PERCENTILE, SAFETY
 from nightcity.chart.runs import PixelTable, read_pixels, write_pixels
 from nightcity.chart.settings import FULL, PAPER, SINGLE, UNOCCLUDED, Model
 from nightcity.errors import UsageError
@@ -34,7 +34,6 @@ from nightcity.render import run_renderer
 PIXELS = 200
 _TRUTH_SAMPLES = 64  # paths a pixel of the orders that the judge does not know
 _PILOT_SAMPLES = 64  # paths a pixel that tell path's noise
-_SAFETY = 1.3  # more paths than the noise of few pixels asks for
 
 
 @dataclass(frozen=True)
@@ -121,7 +120,7 @@ def _samples(pilot: PixelTable, glow: NDArray[np.float64], tolerance: float) -> 
     sigmas = (pilot.glow_error[lit] @ LUMINANCE) / (glow[lit] @ LUMINANCE)
     normal = [abs(NormalDist().inv_cdf((i + 0.5) / 40)) for i in range(40)]
     error = float(np.percentile(np.outer(normal, sigmas), PERCENTILE))
-    needed = _PILOT_SAMPLES * _SAFETY * (error / tolerance) ** 2
+    needed = _PILOT_SAMPLES * SAFETY * (error / tolerance) ** 2
     return max(2, min(math.ceil(needed), 1 << 24))
 
 

@@ -34,7 +34,7 @@ TOLERANCES = (0.1, 0.02, 0.005)
 PERCENTILE = 95
 _RESAMPLED = 400
 _MOST_PATHS = 1_000_000  # that a look at a foretold setting may take
-_SAFETY = 1.3  # more paths than the noise of few pixels asks for
+SAFETY = 1.3  # more paths than the noise of few pixels asks for
 
 
 @dataclass(frozen=True)
@@ -247,6 +247,6 @@ def _by_paths(
     most = max(known, key=lambda measured: int(measured.point.knob("--samples") or 0))
     error = float(np.percentile(_errors(results, most, model, seen), PERCENTILE))
     samples = int(most.point.knob("--samples") or 0)
-    needed = math.ceil(samples * _SAFETY * (error / tolerance) ** 2)
+    needed = math.ceil(samples * SAFETY * (error / tolerance) ** 2)
     frame_ms = most.steady_ms * needed / samples
     return Recommendation(tolerance, model, None, None, (), needed, frame_ms, noise)

@@ -183,21 +183,11 @@ void FarFieldGrid::dispatch(const char* name, const gpu::ComputePipeline& pipeli
     const std::uint32_t most = std::min(device_.limits().workGroupCount, 65535u);
     while (push.firstPixel < end) {
         const std::uint32_t count = std::min(end - push.firstPixel, most);
-        addTime(name, commands_.run(name, [&](VkCommandBuffer commands) {
+        addPassTime(passTimes_, name, commands_.run(name, [&](VkCommandBuffer commands) {
             pipeline.dispatch(commands, &push, count);
             gpu::computeBarrier(commands);
         }));
         push.firstPixel += count;
-    }
-}
-
-void FarFieldGrid::addTime(const char* name, double milliseconds) {
-    const auto found = std::find_if(passTimes_.begin(), passTimes_.end(),
-                                    [&](const PassTime& pass) { return pass.name == name; });
-    if (found == passTimes_.end()) {
-        passTimes_.push_back({name, milliseconds});
-    } else {
-        found->milliseconds += milliseconds;
     }
 }
 
@@ -271,7 +261,7 @@ void FarFieldGrid::bakeBricks(VkDeviceAddress sceneTable) {
 
 // Returns the most that a brick has.
 std::uint32_t FarFieldGrid::findEntries(const PushConstants& push) {
-    addTime("far sight", commands_.run("far sight", [&](VkCommandBuffer commands) {
+    addPassTime(passTimes_, "far sight", commands_.run("far sight", [&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, entryCounts_.buffer().get(), 0, VK_WHOLE_SIZE, 0);
         gpu::computeBarrier(commands);
         sight_.dispatch(commands, &push, push.pixelCount);

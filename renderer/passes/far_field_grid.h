@@ -81,7 +81,6 @@ private:
     void finish(VkDeviceAddress sceneTable);
     void chooseNodeUnit();
     void dispatch(const char* name, const gpu::ComputePipeline& pipeline, PushConstants push);
-    void addTime(const char* name, double milliseconds);
     void writeTables();
     PushConstants pushOf(VkDeviceAddress sceneTable, Batch batch) const;
 

@@ -432,13 +432,7 @@ void FrameRenderer::dispatch(VkCommandBuffer commands, const char* name,
 void FrameRenderer::collectTimes(FrameCost& cost, double milliseconds) {
     cost.milliseconds += milliseconds;
     for (const auto& [name, elapsed] : timestamps_.read()) {
-        const auto known = std::find_if(cost.passes.begin(), cost.passes.end(),
-                                        [&name](const PassTime& pass) { return pass.name == name; });
-        if (known == cost.passes.end()) {
-            cost.passes.push_back({name, elapsed});
-        } else {
-            known->milliseconds += elapsed;
-        }
+        addPassTime(cost.passes, name, elapsed);
     }
 }
 

@@ -62,7 +62,7 @@ GlowPasses::GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32
       commands_(commands),
       plan_(makePipeline(device, "glow plan", kGlowPlanSpirv, {})),
       tiles_(makePipeline(device, "glow tiles", kGlowTilesSpirv, {})),
-      trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {}, 
+      trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {},
                           {near.spheres ? 1u : 0u, near.cutAll ? 1u : 0u, near.thinHaze ? 1u : 0u})),
       refine_(makePipeline(device, "glow refine", kGlowRefineSpirv, {})),
       composite_(makePipeline(device, "glow composite", kGlowCompositeSpirv, {}, {0, aovs})),
