@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 import tempfile
@@ -15,7 +14,7 @@ from pathlib import Path
 
 from nightcity.errors import NightcityError
 
-_POLL = 0.02  # s
+_ACCOUNTANT = Path(__file__).with_name("accountant.py")
 _GRACE = 10.0  # s between TERM and KILL
 
 
@@ -46,33 +45,38 @@ def run_measured(command: Sequence[str | Path], limit: float | None = None) -> C
     error where it fails or is stopped.
     """
     start = time.monotonic()
-    with tempfile.TemporaryFile("w+") as errors:
+    with tempfile.TemporaryFile("w+") as errors, tempfile.TemporaryFile("w+") as report:
         process = subprocess.Popen(
-            list(map(str, command)), stdout=subprocess.DEVNULL, stderr=errors
+            [sys.executable, "-I", "-S", _ACCOUNTANT, str(report.fileno()), *map(str, command)],
+            stdout=subprocess.DEVNULL,
+            stderr=errors,
+            pass_fds=[report.fileno()],
         )
         try:
-            status, usage = _wait(process, None if limit is None else start + limit)
+            returncode = _wait(process, limit)
         except BaseException:
             process.kill()
             process.wait()
             raise
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode:
+        seconds = time.monotonic() - start
+        if returncode:
             errors.seek(0)
-            said = (errors.read().strip().splitlines() or [f"exit code {process.returncode}"])[-1]
-            if limit is not None and time.monotonic() - start >= limit:
+            said = (errors.read().strip().splitlines() or [f"exit code {returncode}"])[-1]
+            if limit is not None and seconds >= limit:
                 said = f"took longer than {limit:g} s"
             raise NightcityError(f"{Path(str(command[0])).name}: {said}")
-    return Cost(time.monotonic() - start, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024)
+        report.seek(0)
+        cpu_seconds, memory = report.read().split()
+    return Cost(seconds, float(cpu_seconds), int(memory))
 
 
-def _wait(process: subprocess.Popen, deadline: float | None) -> tuple[int, os.struct_rusage]:
-    stopped = False
-    while True:
-        child, status, usage = os.wait4(process.pid, 0 if deadline is None else os.WNOHANG)
-        if child:
-            return status, usage
-        if time.monotonic() > deadline:
-            os.kill(process.pid, 9 if stopped else 15)
-            stopped, deadline = True, deadline + _GRACE
-        time.sleep(_POLL)
+def _wait(process: subprocess.Popen, limit: float | None) -> int:
+    try:
+        return process.wait(limit)
+    except subprocess.TimeoutExpired:
+        process.terminate()
+        try:
+            return process.wait(_GRACE)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            return process.wait()
