@@ -11,7 +11,7 @@
 
 namespace {
 
-enum ExitCode { kDone = 0, kOther = 1, kUsage = 2, kScene = 3, kDevice = 4, kSignal = 128 };
+enum ExitCode { kDone = 0, kOther = 1, kUsage = 2, kScene = 3, kDevice = 4 };
 
 int fail(int code, const char* message) {
     std::cerr << "nightcity-render: error: " << message << std::endl;
@@ -40,9 +40,7 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const nightcity::Stopped& stopped) {
-        std::cerr << "nightcity-render: stopped by signal " << stopped.signal
-                  << "; the images that were finished are kept" << std::endl;
-        return kSignal + stopped.signal;  // 143 for TERM
+        return nightcity::reportStop(stopped.signal);
     } catch (const nightcity::UsageError& error) {
         return fail(kUsage, error.what());
     } catch (const nightcity::SceneError& error) {

@@ -90,6 +90,7 @@ public:
         progress_.frames(frames.size(), frames.size());
         if (!options_.stats.empty() && !report_.frames.empty()) {
             completeReport();
+            const FinishFirst whole;
             writeStatistics(options_.stats, report_);
             progress_.line("wrote " + options_.stats.string());
         }
@@ -209,7 +210,11 @@ private:
         }
         const std::filesystem::path file = imageFile(frame);
         const Clock::time_point start = Clock::now();
-        writeImage(file, renderOnce("frame " + std::to_string(frame)), metadata, image_);
+        const Frame pixels = renderOnce("frame " + std::to_string(frame));
+        {
+            const FinishFirst whole;
+            writeImage(file, pixels, metadata, image_);
+        }
         char seconds[32];
         std::snprintf(seconds, sizeof seconds, " (%.2f s)", millisecondsSince(start) / 1000);
         progress_.line("wrote " + file.string() + seconds);

@@ -185,5 +185,28 @@ TEST_F(Command, TermKeepsWhatIsFinishedAndLeavesNoHalf) {
     }
 }
 
+// A dispatch of minutes, in which nobody asks whether to stop.
+TEST_F(Command, TermEndsWhatTheDeviceHasBegun) {
+    const auto render = [&](const char* steps) {
+        return start({at("city.scene"), "--camera", "street", "--size", "64x36", "--method",
+                      "march", "--subdivisions", steps, "-o", at("a.exr")});
+    };
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_EQ(wait(render("1")), 0) << text("error.txt");
+    std::filesystem::remove(at("a.exr"));
+    const auto quick = std::chrono::steady_clock::now() - start;
+    const pid_t child = render("16777216");
+    std::this_thread::sleep_for(quick);
+    ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0) << text("error.txt");
+    const auto asked = std::chrono::steady_clock::now();
+    ::kill(child, SIGTERM);
+    EXPECT_EQ(wait(child), 143) << text("error.txt");
+    EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(5));
+    EXPECT_NE(text("error.txt").find("stopped by signal 15"), std::string::npos);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+        EXPECT_EQ(entry.path().filename().string().find("a.exr"), std::string::npos);
+    }
+}
+
 }  // namespace
 }  // namespace nightcity
