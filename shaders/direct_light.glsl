@@ -25,33 +25,33 @@ struct DirectLight {
     vec3 direction;  // unit vector, to the emitting point
 };
 
-// Before visibility and attenuation, at `place` of the window.
+// Before visibility and attenuation.
 struct EmitterSample {
-    vec3 place;
+    vec3 place;     // of the window
+    vec3 way;       // m, from the lit point to there
     float perWatt;  // m^-2, fluence of 1 W
 };
 
-vec3 paneSample(Window window, vec3 point, vec2 u, out float perWatt) {
+EmitterSample paneSample(Window window, vec3 fromCentre, vec2 u) {
     vec2 halfSize = vec2(length(window.halfU), length(window.halfV));
     vec3 axisU = window.halfU / halfSize.x;
     vec3 axisV = window.halfV / halfSize.y;
     vec3 normal = cross(axisU, axisV);
-    vec3 toCentre = window.centre - point;
-    float height = -dot(toCentre, normal);  // m, above the pane's bright side
-    perWatt = 0.0;
+    float height = dot(fromCentre, normal);  // m, above the pane's bright side
     if (height <= 0.0) {
-        return window.centre;
+        return EmitterSample(window.centre, -fromCentre, 0.0);
     }
-    vec2 across = vec2(dot(toCentre, axisU), dot(toCentre, axisV));
+    vec2 across = -vec2(dot(fromCentre, axisU), dot(fromCentre, axisV));
     float area = 4.0 * halfSize.x * halfSize.y;
     vec2 at = across + (2.0 * u - 1.0) * halfSize;
-    bool near = squared(toCentre) < kNearPane * kNearPane * dot(halfSize, halfSize);
+    bool near = squared(fromCentre) < kNearPane * kNearPane * dot(halfSize, halfSize);
     SphericalRectangle rectangle;
     if (near) {
         // The listing's z axis points away from the pane.
         rectangle = sphericalRectangle(vec3(across - halfSize, -height), 2.0 * halfSize);
         near = rectangle.solidAngle > kSmallSolidAngle;
     }
+    float perWatt;
     if (near) {
         at = rectanglePoint(rectangle, u);
         perWatt = rectangle.solidAngle / (kPi * area);
@@ -59,24 +59,25 @@ vec3 paneSample(Window window, vec3 point, vec2 u, out float perWatt) {
         float distance2 = dot(at, at) + height * height;
         perWatt = height / (kPi * distance2 * sqrt(distance2));
     }
-    return point + at.x * axisU + at.y * axisV - height * normal;
+    vec2 within = at - across;
+    return EmitterSample(window.centre + within.x * axisU + within.y * axisV,
+                         at.x * axisU + at.y * axisV - height * normal, perWatt);
 }
 
-EmitterSample sampleEmitter(Window window, vec3 point, vec2 u) {
-    vec3 way = point - window.centre;
-    float distance2 = squared(way);
+EmitterSample sampleEmitter(Window window, vec3 fromCentre, vec2 u) {
+    float distance2 = squared(fromCentre);
     float perWatt = kInverse4Pi / distance2;
     if ((window.flags & kWindowSphere) != 0u) {  // isotropic in every model, dark inside
-        return EmitterSample(window.centre, distance2 < squared(window.halfU) ? 0.0 : perWatt);
+        float outside = distance2 < squared(window.halfU) ? 0.0 : perWatt;
+        return EmitterSample(window.centre, -fromCentre, outside);
     }
     if (kEmitter == kEmitterPane) {
-        vec3 place = paneSample(window, point, u, perWatt);
-        return EmitterSample(place, perWatt);
+        return paneSample(window, fromCentre, u);
     }
     if (kEmitter == kEmitterLambertian) {
-        perWatt *= 4.0 * max(dot(way, paneNormal(window)), 0.0) / sqrt(distance2);
+        perWatt *= 4.0 * max(dot(fromCentre, paneNormal(window)), 0.0) / sqrt(distance2);
     }
-    return EmitterSample(window.centre, distance2 > 0.0 ? perWatt : 0.0);
+    return EmitterSample(window.centre, -fromCentre, distance2 > 0.0 ? perWatt : 0.0);
 }
 
 // Between an emitting point of the window and the other. Without visibility: the haze of the
@@ -94,14 +95,17 @@ float transmittanceTo(Window window, vec3 place, vec3 point, float extinction) {
     return exp(-span.depth);
 }
 
-DirectLight directLight(uint index, vec3 point, float extinction, inout RandomStream random) {
+// `fromCentre`, m, leads from the window's centre to the point: right beside a window it is finer
+// than the places themselves.
+DirectLight directLight(uint index, vec3 point, vec3 fromCentre, float extinction,
+                        inout RandomStream random) {
     ++lightSamples;
     Window window = WindowArray(sceneTable.windows).at[index];
-    EmitterSample emitter = sampleEmitter(window, point, nextRandomPair(random));
-    vec3 way = emitter.place - point;
-    DirectLight light = DirectLight(vec3(0.0), way / max(length(way), 1e-20));
-    float distance2 = squared(window.centre - point);
-    if (emitter.perWatt > 0.0 && distance2 <= frameTable.reach * frameTable.reach) {
+    EmitterSample emitter = sampleEmitter(window, fromCentre, nextRandomPair(random));
+    DirectLight light =
+        DirectLight(vec3(0.0), emitter.way / max(length(emitter.way), 1e-20));
+    if (emitter.perWatt > 0.0 &&
+        squared(fromCentre) <= frameTable.reach * frameTable.reach) {
         light.fluence = emitter.perWatt *
                         transmittanceTo(window, emitter.place, point, extinction) *
                         window.power * window.colour;

@@ -84,7 +84,8 @@ AirlightInterval brightInterval(Ray ray, HazeSpan span, Window window) {
 // A point of the haze on a ray, a window, and the density of drawing both (1/m).
 struct ScatteringPoint {
     HazePoint haze;
-    uint window;  // or kNone
+    uint window;      // or kNone
+    vec3 fromWindow;  // m, from the window's centre
     float byFlight;
     float byAngle;
 };
@@ -97,13 +98,11 @@ float flightDensity(HazePoint haze, HazeSpan span) {
     return haze.extinction * exp(-haze.depth) / collisionProbability(span.depth);
 }
 
-float angleDensity(AirlightInterval interval, float distance) {
-    float step = distance - interval.begin;
-    if (step < 0.0 || step > interval.span || interval.span <= 0.0) {
-        return 0.0;
-    }
-    float u = interval.ua + step;
-    return interval.h / (airlightArc(interval) * (interval.h * interval.h + u * u));
+// `u` m after the foot.
+float angleDensity(AirlightInterval interval, float u) {
+    bool isOutside = u < interval.ua || u > interval.ub || interval.span <= 0.0;
+    float d2 = interval.h * interval.h + u * u;
+    return isOutside ? 0.0 : interval.h / (airlightArc(interval) * d2);
 }
 
 ScatteringPoint drawByFlight(Ray ray, HazeSpan span, float nearShare, inout RandomStream random) {
@@ -116,7 +115,10 @@ ScatteringPoint drawByFlight(Ray ray, HazeSpan span, float nearShare, inout Rand
     if (light.window != kNone) {
         Window window = WindowArray(sceneTable.windows).at[light.window];
         point.byFlight = light.probability * flightDensity(point.haze, span);
-        point.byAngle = angleDensity(brightInterval(ray, span, window), point.haze.distance);
+        AirlightInterval interval = brightInterval(ray, span, window);
+        float u = interval.ua + (point.haze.distance - interval.begin);
+        point.fromWindow = interval.foot + u * ray.direction;
+        point.byAngle = angleDensity(interval, u);
         if (point.byAngle > 0.0) {
             point.byAngle *= lightProbability(lightsAlong(ray, span, nearShare), light.window);
         }
@@ -136,14 +138,18 @@ ScatteringPoint drawByAngle(Ray ray, HazeSpan span, float nearShare, inout Rando
     if (interval.span <= 0.0) {
         return point;
     }
-    float distance = interval.begin +
-                     airlightStepOfArc(interval, airlightArc(interval), nextRandom(random));
+    vec2 turn = airlightTurn(airlightArc(interval), nextRandom(random));
+    float distance = interval.begin + airlightStep(interval, turn.x, turn.y);
     point.haze = hazeAtDistance(ray, distance);
     if (point.haze.extinction <= 0.0) {
         return point;
     }
     point.window = light.window;
-    point.byAngle = light.probability * angleDensity(interval, distance);
+    // From the foot, not from the distance along the ray, which is known to micrometres only: a
+    // light as near as that would be met by some of its density's peak.
+    float u = airlightFromFoot(interval, turn.x, turn.y);
+    point.fromWindow = interval.foot + u * ray.direction;
+    point.byAngle = light.probability * angleDensity(interval, u);
     point.byFlight =
         flightDensity(point.haze, span) *
         lightProbability(lightsAt(ray.origin + distance * ray.direction, point.haze.extinction),
@@ -172,7 +178,8 @@ vec3 inScatteredLight(Ray ray, HazeSpan span, float nearShare, inout RandomStrea
     if ((kListed != 0u && !isListedAt(place, point.window)) || density <= 0.0) {
         return vec3(0.0);
     }
-    DirectLight light = directLight(point.window, place, haze.extinction, random);
+    DirectLight light =
+        directLight(point.window, place, point.fromWindow, haze.extinction, random);
     float phase = phaseFunction(frameTable.anisotropy, dot(light.direction, ray.direction));
     return haze.scattering * exp(-haze.depth) * phase / density * light.fluence;
 }

@@ -76,8 +76,9 @@ vec3 reflectedLight(Ray ray, RayEnd end, inout RandomStream random) {
     if (light.window == kNone || (kListed != 0u && !isListedAt(before, light.window))) {
         return vec3(0.0);
     }
-    DirectLight direct =
-        directLight(light.window, point + kOffSurface * end.normal, extinction, random);
+    vec3 off = point + kOffSurface * end.normal;
+    vec3 fromCentre = off - WindowArray(sceneTable.windows).at[light.window].centre;
+    DirectLight direct = directLight(light.window, off, fromCentre, extinction, random);
     float received = max(dot(direct.direction, end.normal), 0.0);
     return end.reflectance / kPi * received / light.probability * direct.fluence;
 }

@@ -50,10 +50,23 @@ NIGHTCITY_FUNCTION float airlightArc(AirlightInterval i) {
     return arcOf(i.h * i.span, i.h * i.h + i.ua * i.ub);
 }
 
+// Metres from the foot to there: exact to a small part of h beside the foot, however far from the
+// begin.
+NIGHTCITY_FUNCTION float airlightFromFoot(AirlightInterval i, float sine, float cosine) {
+    float across = max(i.h * cosine - i.ua * sine, 1e-30f);
+    return clamp((i.ua * cosine + i.h * sine) * (i.h / across), i.ua, i.ub);
+}
+
+// Sine and cosine of a share of an arc.
+NIGHTCITY_FUNCTION vec2 airlightTurn(float arc, float share) {
+    vec2 side = quarterTurn(0.5f * arc * share);
+    return vec2(2.0f * side.x * side.y, side.y * side.y - side.x * side.x);
+}
+
 // Metres from the begin to a share of the arc.
 NIGHTCITY_FUNCTION float airlightStepOfArc(AirlightInterval i, float arc, float share) {
-    vec2 side = quarterTurn(0.5f * arc * share);
-    return airlightStep(i, 2.0f * side.x * side.y, side.y * side.y - side.x * side.x);
+    vec2 turn = airlightTurn(arc, share);
+    return airlightStep(i, turn.x, turn.y);
 }
 
 // Optical depths from the begin to the point `step` m after it, and from there to the

@@ -187,7 +187,6 @@ SWEEPS = (
         failures={
             "march": Failure(_STEPS_CAUSE, 3e4, 1e6),
             "gauss": Failure("places in a box are float32 from its corner, here 2 um", 0, 1),
-            "path": Failure("places on the ray are float32, here 2 um", 0, 1),
         },
     ),
     Sweep(
