@@ -172,7 +172,9 @@ SWEEPS = (
         measure=against(_cut),
         failures={
             "march": Failure("no visibility; steps follow the boxes", 50, 500),
-            "field": Failure("a ray a thousand times darker than others is too bright", 0.3, 3),
+            "field": Failure(
+                "dark rays beside a shadow's edge, which 0.5 m between nodes blur", 0.3, 3
+            ),
         },
     ),
 )
