@@ -102,4 +102,38 @@ float largest(vec4 value) {
     return max(value.r, max(value.g, value.b));
 }
 
+// What the cubic and the straight line differ by halfway between two corners of the cell, the most
+// of its four sides.
+float bendOfPatch(GlowPatch points) {
+    vec4 most = vec4(0.0);
+    for (int k = 1; k <= 2; ++k) {
+        int row = 4 * k;
+        most = max(most, abs(points.at[row + 1] + points.at[row + 2] - points.at[row] -
+                             points.at[row + 3]));
+        most = max(most, abs(points.at[4 + k] + points.at[8 + k] - points.at[k] -
+                             points.at[12 + k]));
+    }
+    return largest(most) / 16.0;
+}
+
+// What the parabola and the straight line differ by halfway along a quarter, the most of all.
+float bendOfQuarters(GlowQuarters points) {
+    vec4 most = vec4(0.0);
+    for (int k = 0; k < 3; ++k) {
+        most = max(most, abs(points.at[3 * k] - 2.0 * points.at[3 * k + 1] +
+                             points.at[3 * k + 2]));
+        most = max(most, abs(points.at[k] - 2.0 * points.at[k + 3] + points.at[k + 6]));
+    }
+    return largest(most) / 8.0;
+}
+
+// Between the corners of the quarter whose first is point `low`: the largest less the smallest.
+float riseOfQuarter(GlowQuarters points, int low) {
+    vec4 right = points.at[low + 1];
+    vec4 down = points.at[low + 3];
+    vec4 across = points.at[low + 4];
+    return largest(max(max(points.at[low], right), max(down, across)) -
+                   min(min(points.at[low], right), min(down, across)));
+}
+
 #endif

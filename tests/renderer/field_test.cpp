@@ -103,7 +103,7 @@ TEST(Field, SparseRaysStayWithinTheToleranceOfAllRays) {
         glowErrors(renderOnDevice(scene, product, fieldSettings()),
                    renderOnDevice(scene, product, fieldSettings(GlowRays::all)));
     EXPECT_LT(errors.median, 1e-3);
-    EXPECT_LT(errors.worst, 0.1);
+    EXPECT_LT(errors.worst, 0.01);
     EXPECT_LT(std::abs(errors.bias), 1e-3);
 }
 
