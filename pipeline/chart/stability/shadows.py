@@ -66,11 +66,11 @@ _RAY = 4.0  # m
 
 def _posts(points: FloatArray) -> Shot:
     """A wall between light and ray, 1 m from the light, ever wider: its shadow on the ray is four
-    times as wide. One each 64 m."""
+    times as wide. One each 64 m. The window faces the wall: about its plane, 5 cm are its own."""
     scene = TinyScene()
     for row, half in enumerate(points):
         z = 64.0 * row
-        light = scene.window((0, 0, z), side=1e-3, power=_POWER)
+        light = scene.window((0, 0, z), normal=(1, 0, 0), side=1e-3, power=_POWER)
         scene.wall((1, -half, z - 8), (2, half, z + 8))
         scene.haze((-8, -_HALF, z - 16), (8, _HALF, z + 16), _CLEAR, lights=[light])
         scene.look((_RAY, -20, z), (0, 1, 0), lit=[light])
