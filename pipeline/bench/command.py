@@ -7,6 +7,16 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from nightcity.bench.options import (
+    add_scenes,
+    add_views,
+    check,
+    judge_tolerance,
+    names,
+    number,
+    numbers,
+    wholes,
+)
 from nightcity.errors import UsageError
 
 
@@ -20,11 +30,18 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         action="append",
         help="a generator preset (default: paper-4x4 and city-100x100)",
     )
+    command.add_argument(
+        "--cameras",
+        type=names,
+        default=["overview75"],
+        metavar="NAMES",
+        help="through which every method is timed on the first scene (default: overview75)",
+    )
 
     def run(options: argparse.Namespace) -> None:
         from nightcity.bench.steps import bench
 
-        bench(options.preset or ["paper-4x4", "city-100x100"], options.town)
+        bench(options.preset or ["paper-4x4", "city-100x100"], options.town, options.cameras)
 
     command.set_defaults(run=run)
     tables = command.add_subparsers(
@@ -32,7 +49,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         metavar="TABLE",
         help="without one: time, memory and size of every step, and every method beside the march",
     )
-    for add in (_accuracy, _ladder, _mitsuba, _growth):
+    for add in (_accuracy, _ladder, _mitsuba, _growth, _paper):
         add(tables)
 
 
@@ -44,12 +61,12 @@ def _accuracy(tables: argparse._SubParsersAction) -> None:
         "below 1,000 pixels); of path, means within three standard errors, no pixel beyond "
         "Sidak's bound, standard error of the mean at most 0.5 %.",
     )
-    _add_scenes(table, "paper-4x4 and mixed-6x6, where no town is named either")
-    _add_views(table)
-    table.add_argument("--methods", type=_names, default=["path"], metavar="NAMES")
-    table.add_argument("--tolerances", type=_numbers, default=[0.01, 0.001], metavar="T,...")
+    add_scenes(table, "paper-4x4 and mixed-6x6, where no town is named either")
+    add_views(table)
+    table.add_argument("--methods", type=names, default=["path"], metavar="NAMES")
+    table.add_argument("--tolerances", type=numbers, default=[0.01, 0.001], metavar="T,...")
     table.add_argument(
-        "--emitters", type=_names, default=["isotropic", "lambertian", "pane"], metavar="NAMES"
+        "--emitters", type=names, default=["isotropic", "lambertian", "pane"], metavar="NAMES"
     )
     table.add_argument("--lights", default="all", choices=("listed", "all"))
     table.add_argument("--visibility", default="full", choices=("none", "full"))
@@ -60,7 +77,7 @@ def _accuracy(tables: argparse._SubParsersAction) -> None:
     )
     table.add_argument(
         "--judge-tolerance",
-        type=_judge_tolerance,
+        type=judge_tolerance,
         metavar="auto|T",
         help="of the judge, which converges to a tenth of it; auto (default): the smallest of "
         "--tolerances, a tenth of it where the methods hold reference itself",
@@ -69,8 +86,8 @@ def _accuracy(tables: argparse._SubParsersAction) -> None:
     def run(options: argparse.Namespace) -> int:
         from nightcity.bench.accuracy import METHODS, AccuracyOptions, accuracy
 
-        _check("--methods", options.methods, METHODS)
-        _check("--emitters", options.emitters, ("isotropic", "lambertian", "pane"))
+        check("--methods", options.methods, METHODS)
+        check("--emitters", options.emitters, ("isotropic", "lambertian", "pane"))
         chosen = AccuracyOptions(
             options.methods,
             options.tolerances,
@@ -103,7 +120,7 @@ def _ladder(tables: argparse._SubParsersAction) -> None:
     )
     table.add_argument(
         "--extinctions",
-        type=_numbers,
+        type=numbers,
         metavar="E,...",
         help="of a preset's haze, 1/m (default: 0.001 to 0.1 in five steps for a preset)",
     )
@@ -114,7 +131,7 @@ def _ladder(tables: argparse._SubParsersAction) -> None:
     table.add_argument(
         "--samples", type=int, default=16384, help="paths a pixel (default: %(default)s)"
     )
-    _add_views(table)
+    add_views(table)
 
     def run(options: argparse.Namespace) -> int:
         from nightcity.bench.ladder import EXTINCTIONS, LadderOptions, ladder
@@ -164,7 +181,7 @@ def _mitsuba(tables: argparse._SubParsersAction) -> None:
         "--samples", type=int, default=2048, help="paths a pixel and pass (default: %(default)s)"
     )
     table.add_argument("--passes", type=int, default=32, help="(default: %(default)s)")
-    _add_views(table)
+    add_views(table)
 
     def run(options: argparse.Namespace) -> int:
         from nightcity.bench.independent import PeerOptions, bench_mitsuba
@@ -194,7 +211,7 @@ def _growth(tables: argparse._SubParsersAction) -> None:
     table.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
     table.add_argument(
         "--grids",
-        type=_wholes,
+        type=wholes,
         default=[4, 8, 16, 30, 60, 100],
         metavar="N,...",
         help="cities of N x N buildings (default: 4,8,16,30,60,100)",
@@ -204,7 +221,7 @@ def _growth(tables: argparse._SubParsersAction) -> None:
     )
     table.add_argument(
         "--methods",
-        type=_names,
+        type=names,
         default=["surface", "march", "gauss", "field"],
         metavar="NAMES",
         help="frames to time, of surface, march, gauss and field (default: all)",
@@ -212,13 +229,13 @@ def _growth(tables: argparse._SubParsersAction) -> None:
     table.add_argument("--camera", default="overview75", help="(default: %(default)s)")
     table.add_argument("--size", default="1920x1061", metavar="WIDTHxHEIGHT")
     table.add_argument(
-        "--limit", type=_number, default=600, metavar="SECONDS", help="a step (default: 600)"
+        "--limit", type=number, default=600, metavar="SECONDS", help="a step (default: 600)"
     )
 
     def run(options: argparse.Namespace) -> None:
         from nightcity.bench.growth import FRAMES, GrowthOptions, growth
 
-        _check("--methods", options.methods, tuple(FRAMES))
+        check("--methods", options.methods, tuple(FRAMES))
         chosen = GrowthOptions(
             options.grids, options.preset, options.methods, options.camera, options.size,
             options.limit,
@@ -228,59 +245,38 @@ def _growth(tables: argparse._SubParsersAction) -> None:
     table.set_defaults(run=run)
 
 
-def _add_scenes(table: argparse.ArgumentParser, usual: str) -> None:
-    table.add_argument(
-        "scene",
-        nargs="*",
-        metavar="SCENE",
-        help=f"presets, stages or folders of flat scenes (default: {usual})",
+def _paper(tables: argparse._SubParsersAction) -> None:
+    table = tables.add_parser(
+        "paper",
+        help="the paper's three tables beside ours: steps, screen coverage, size of the city",
+        description="The march in both forms, the surface frame and field, in turn; in brackets "
+        "the ratio to the table's standard row, on both sides.",
     )
-    table.add_argument("--town", type=Path, action="append", default=[], help="a CityJSON file")
-
-
-def _add_views(table: argparse.ArgumentParser) -> None:
     table.add_argument(
-        "--cameras", type=_names, metavar="NAMES", help="(default: overview75,street,far25)"
+        "tables", nargs="*", metavar="TABLE", help="steps, coverage or grid (default: all three)"
     )
+    table.add_argument(
+        "--tolerance", type=number, default=0.01, help="of field (default: %(default)s)"
+    )
+    table.add_argument("--rounds", type=int, default=3, help="(default: %(default)s)")
     table.add_argument("--size", default="1920x1061", metavar="WIDTHxHEIGHT")
     table.add_argument(
-        "--judged",
-        type=Path,
-        metavar="FOLDER",
-        help="keep the judge's results here, and take those that are there (default: not kept)",
+        "--grids",
+        type=wholes,
+        default=[],
+        metavar="N,...",
+        help="cities of N x N buildings beyond the paper's four",
     )
 
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.bench.paper import TABLES, PaperOptions, paper_tables
 
-def _names(text: str) -> list[str]:
-    return [name for name in text.split(",") if name]
+        tables = options.tables or list(TABLES)
+        check("TABLE", tables, tuple(TABLES))
+        if options.rounds < 1:
+            raise UsageError(f"--rounds {options.rounds}: at least 1")
+        paper_tables(
+            PaperOptions(tables, options.size, options.grids, options.tolerance, options.rounds)
+        )
 
-
-def _numbers(text: str) -> list[float]:
-    return [_number(part) for part in text.split(",")]
-
-
-def _wholes(text: str) -> list[int]:
-    try:
-        numbers = sorted({int(part) for part in text.split(",")})
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is no list of whole numbers") from None
-    if numbers[0] < 1:
-        raise argparse.ArgumentTypeError(f"{numbers[0]} is below 1")
-    return numbers
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number") from None
-
-
-def _judge_tolerance(text: str) -> float | None:
-    return None if text == "auto" else _number(text)
-
-
-def _check(option: str, names: list[str], known: tuple[str, ...]) -> None:
-    unknown = [name for name in names if name not in known]
-    if unknown or not names:
-        raise UsageError(f"{option} {','.join(names)}: there are {', '.join(known)}")
+    table.set_defaults(run=run)

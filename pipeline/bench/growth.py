@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from nightcity.bench.cost import run_measured, run_nightcity
+from nightcity.bench.growth_picture import draw_growth
 from nightcity.bench.judge import say
 from nightcity.errors import NightcityError
 from nightcity.render import renderer
@@ -92,9 +93,6 @@ def growth(folder: Path, options: GrowthOptions) -> None:
         _write_table(found, folder / "growth.csv")
     if not found.cities:
         raise NightcityError("; ".join(found.left_out.values()))
-    # Not before: the memory of a child counts what its parent held when it started it.
-    from nightcity.bench.growth_picture import draw_growth
-
     pictures = draw_growth(found, folder / "growth")
     _print(found, options)
     for path in (folder / "growth.csv", *pictures):

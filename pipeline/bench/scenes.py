@@ -55,7 +55,7 @@ def open_scene(
     """
     path = Path(source)
     if source in preset_names():
-        changes = "".join(f",{field}={value:g}" for field, value in (overrides or {}).items())
+        changes = "".join(f",{field}={_text(value)}" for field, value in (overrides or {}).items())
         return _export(generate(load_parameters(source, overrides)), source + changes, work)
     if overrides:
         raise UsageError(f"{source}: {', '.join(overrides)} can be set for presets only")
@@ -69,6 +69,10 @@ def open_scene(
         f"{source}: neither a preset ({', '.join(preset_names())}) nor a stage nor the folder of "
         "a flat scene"
     )
+
+
+def _text(value: object) -> str:
+    return "x".join(f"{part:g}" for part in value) if isinstance(value, tuple) else f"{value:g}"
 
 
 def open_town(file: Path, work: Path) -> MeasuredScene:

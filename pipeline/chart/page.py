@@ -16,7 +16,7 @@ from typing import Any
 
 from plotly.offline import get_plotlyjs
 
-from nightcity.chart import paper_table
+from nightcity.chart import paper_tables
 from nightcity.chart.measure import ShotResults
 from nightcity.chart.pictures import colour_scale, error_map, picture
 from nightcity.chart.results import Row
@@ -41,8 +41,8 @@ def write_page(
         "rows": [{name: _plain(value) for name, value in row.items()} for row in numbered],
         "pictures": {str(each.shot): _pictures(numbered, each) for each in results},
         "paper": {
-            "source": paper_table.SOURCE,
-            "framesPerSecond": paper_table.FRAMES_PER_SECOND,
+            "source": paper_tables.SOURCE,
+            "framesPerSecond": paper_tables.FRAMES_PER_SECOND,
         },
         "richestName": RICHEST.name,
         "richest": f"{RICHEST.name}: {_in_words(RICHEST.options)}",

@@ -13,7 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from nightcity.chart.paper_table import FRAMES_PER_SECOND
+from nightcity.chart.paper_tables import FRAMES_PER_SECOND
 from nightcity.chart.results import Row
 from nightcity.chart.shot import Shot
 
