@@ -7,35 +7,19 @@
 Linux counts to the peak memory of a process what its parent held when it started it (the peak
 outlives exec), so whatever measures has to be small itself. Runs the command, writes its processor
 time in seconds and its peak resident bytes to FD, and ends as the command did: with its exit code,
-or 128 + the signal that ended it. The command ends with this process, whatever ends this.
+or 128 + the signal that ended it. TERM is handed on.
 """
 
 from __future__ import annotations
 
-import ctypes
 import os
 import signal
 import sys
 
-_PR_SET_PDEATHSIG = 1
-
-
-def _start(report: int, command: list[str]) -> int:
-    child = os.fork()
-    if child:
-        return child
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    os.close(report)
-    try:
-        os.execvp(command[0], command)
-    except OSError as error:
-        print(f"{command[0]}: {error.strerror}", file=sys.stderr, flush=True)
-        os._exit(127)
-
 
 def main() -> int:
-    report = int(sys.argv[1])
-    child = _start(report, sys.argv[2:])
+    report, command = int(sys.argv[1]), sys.argv[2:]
+    child = os.posix_spawnp(command[0], command, os.environ)
     signal.signal(signal.SIGTERM, lambda number, frame: os.kill(child, number))
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal sends the command its own
     _, status, usage = os.wait4(child, 0)

@@ -17,6 +17,7 @@ from nightcity.bench.options import (
     numbers,
     wholes,
 )
+from nightcity.bench.peer_commands import add_cycles, add_mitsuba
 from nightcity.errors import UsageError
 
 
@@ -49,7 +50,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         metavar="TABLE",
         help="without one: time, memory and size of every step, and every method beside the march",
     )
-    for add in (_accuracy, _ladder, _mitsuba, _growth, _paper):
+    for add in (_accuracy, _ladder, add_mitsuba, add_cycles, _growth, _paper):
         add(tables)
 
 
@@ -148,55 +149,6 @@ def _ladder(tables: argparse._SubParsersAction) -> None:
             options.judged,
         )
         return ladder(options.scene, chosen)
-
-    table.set_defaults(run=run)
-
-
-def _mitsuba(tables: argparse._SubParsersAction) -> None:
-    table = tables.add_parser(
-        "mitsuba",
-        help="an independent renderer, Mitsuba 3, against the judge on the same rays",
-        description="Single scattering from panes, all lights, full visibility. Exit code 1 where "
-        "the means are more than three standard errors apart.",
-    )
-    table.add_argument(
-        "scene",
-        nargs="?",
-        default="paper-4x4",
-        metavar="SCENE",
-        help="one haze that fills a box around the buildings (default: %(default)s)",
-    )
-    table.add_argument(
-        "--environment",
-        type=Path,
-        default=Path("build/mitsuba"),
-        metavar="FOLDER",
-        help="where Mitsuba is (default: %(default)s)",
-    )
-    table.add_argument(
-        "--install", action="store_true", help="install Mitsuba and LLVM 19 there first"
-    )
-    table.add_argument("--pixels", type=int, default=300, help="(default: %(default)s)")
-    table.add_argument(
-        "--samples", type=int, default=2048, help="paths a pixel and pass (default: %(default)s)"
-    )
-    table.add_argument("--passes", type=int, default=32, help="(default: %(default)s)")
-    add_views(table)
-
-    def run(options: argparse.Namespace) -> int:
-        from nightcity.bench.independent import PeerOptions, bench_mitsuba
-
-        chosen = PeerOptions(
-            options.cameras,
-            options.size,
-            options.pixels,
-            options.samples,
-            options.passes,
-            options.judged,
-            options.environment,
-            options.install,
-        )
-        return bench_mitsuba(options.scene, chosen)
 
     table.set_defaults(run=run)
 

@@ -15,6 +15,8 @@ from pathlib import Path
 from nightcity.errors import NightcityError
 
 _ACCOUNTANT = Path(__file__).with_name("accountant.py")
+# The command ends with the process that waits for it, whatever ends that.
+_WITH_ACCOUNTANT = ("setpriv", "--pdeathsig", "KILL", "--")
 _GRACE = 10.0  # s between TERM and KILL
 
 
@@ -47,7 +49,8 @@ def run_measured(command: Sequence[str | Path], limit: float | None = None) -> C
     start = time.monotonic()
     with tempfile.TemporaryFile("w+") as errors, tempfile.TemporaryFile("w+") as report:
         process = subprocess.Popen(
-            [sys.executable, "-I", "-S", _ACCOUNTANT, str(report.fileno()), *map(str, command)],
+            [sys.executable, "-I", "-S", _ACCOUNTANT, str(report.fileno())]
+            + [*_WITH_ACCOUNTANT, *map(str, command)],
             stdout=subprocess.DEVNULL,
             stderr=errors,
             pass_fds=[report.fileno()],

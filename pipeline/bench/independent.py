@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from nightcity.bench.judge import Keeper, View, choose_pixels
 from nightcity.bench.ladder import table_head
 from nightcity.bench.mitsuba_environment import MitsubaEnvironment
-from nightcity.bench.mitsuba_scene import write_mitsuba_scene
+from nightcity.bench.peer_scene import write_peer_scene
 from nightcity.bench.scenes import open_scene
 from nightcity.chart.agreement import MEAN_SIGMAS
 from nightcity.errors import UsageError
@@ -28,7 +28,7 @@ from nightcity.errors import UsageError
 _PROGRAM = Path(__file__).with_name("mitsuba_program.py")
 _JUDGE = ("--lights", "all", "--visibility", "full", "--emitter", "pane", "--method", "reference")
 _JUDGE_TOLERANCE = "0.01"  # the judge converges to a tenth of it
-_GREEN = 1  # mitsuba_scene.py renders this channel
+_GREEN = 1  # peer_scene.py renders this channel
 _FEWEST_PASSES = 16  # with fewer the spread itself is guesswork
 
 
@@ -87,7 +87,7 @@ def bench_mitsuba(source: str, options: PeerOptions) -> int:
         for camera in cameras:
             view = View(scene, camera, options.size)
             pixels = choose_pixels(view, options.pixels, work)
-            write_mitsuba_scene(view, pixels, work / "scene.npz")
+            write_peer_scene(view, pixels, work / "scene.npz")
             counts = [str(options.samples), str(options.passes)]
             environment.run(_PROGRAM, [work / "scene.npz", work / "result.npy", *counts])
             judge = (*_JUDGE, "--tolerance", _JUDGE_TOLERANCE)

@@ -27,12 +27,29 @@ def add_views(table: argparse.ArgumentParser) -> None:
         "--cameras", type=names, metavar="NAMES", help="(default: overview75,street,far25)"
     )
     table.add_argument("--size", default="1920x1061", metavar="WIDTHxHEIGHT")
+    add_judged(table)
+
+
+def add_judged(table: argparse.ArgumentParser) -> None:
+    """Where the judge keeps its results."""
     table.add_argument(
         "--judged",
         type=Path,
         metavar="FOLDER",
         help="keep the judge's results here, and take those that are there (default: not kept)",
     )
+
+
+def add_environment(table: argparse.ArgumentParser, folder: str, what: str) -> None:
+    """Where another renderer is, by default in build/FOLDER, and whether to put it there."""
+    table.add_argument(
+        "--environment",
+        type=Path,
+        default=Path("build") / folder,
+        metavar="FOLDER",
+        help=f"where {what} lives (default: %(default)s)",
+    )
+    table.add_argument("--install", action="store_true", help=f"install {what} there first")
 
 
 def names(text: str) -> list[str]:

@@ -13,7 +13,7 @@ from conftest import Command
 from nightcity.bench.independent import compare_passes
 from nightcity.bench.judge import View
 from nightcity.bench.mitsuba_environment import MitsubaEnvironment
-from nightcity.bench.mitsuba_scene import pixel_rays, write_mitsuba_scene
+from nightcity.bench.peer_scene import pixel_rays, write_peer_scene
 from nightcity.bench.scenes import open_scene
 from nightcity.errors import SceneError, UsageError
 from nightcity.export.read import read_scene
@@ -27,7 +27,7 @@ def view(tmp_path: Path) -> View:
 
 
 def test_the_city_as_mitsuba_takes_it(view: View, tmp_path: Path) -> None:
-    write_mitsuba_scene(view, np.array([[48, 27]]), tmp_path / "scene.npz")
+    write_peer_scene(view, np.array([[48, 27]]), tmp_path / "scene.npz")
     data = np.load(tmp_path / "scene.npz")
     np.testing.assert_allclose([data["lo"], data["hi"]], [[-15, -15, 0], [15, 15, 30]])
     assert (float(data["extinction"]), float(data["albedo"])) == pytest.approx((0.01, 0.9))
@@ -60,7 +60,7 @@ def test_rays_by_hand(view: View) -> None:
 def test_two_hazes_are_refused(tmp_path: Path) -> None:
     view = View(open_scene("mixed-6x6", tmp_path), "overview75", SIZE)
     with pytest.raises(SceneError, match="mixed-6x6: boxes of haze differ in extinction"):
-        write_mitsuba_scene(view, np.array([[48, 27]]), tmp_path / "scene.npz")
+        write_peer_scene(view, np.array([[48, 27]]), tmp_path / "scene.npz")
 
 
 def test_haze_that_fills_no_box_is_refused(tmp_path: Path) -> None:
@@ -72,7 +72,7 @@ def test_haze_that_fills_no_box_is_refused(tmp_path: Path) -> None:
     bytes_of_scene[boxes["offset"] + 24 : boxes["offset"] + 28] = (height * 2 / 3).tobytes()
     (scene.folder / "scene.bin").write_bytes(bytes_of_scene)
     with pytest.raises(SceneError, match="do not fill one box"):
-        write_mitsuba_scene(
+        write_peer_scene(
             View(scene, "overview75", SIZE), np.array([[48, 27]]), tmp_path / "scene.npz"
         )
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Nightcity authors
 # SPDX-License-Identifier: Apache-2.0
-"""A flat scene as Mitsuba takes it: one box of haze, black walls, one-sided rectangles."""
+"""A flat scene as other renderers take it: one box of haze, black walls, one-sided rectangles."""
 
 from __future__ import annotations
 
@@ -15,15 +15,17 @@ from nightcity.export.read import FlatScene, read_scene
 from nightcity.export.records import WINDOW_ON, WINDOW_SPHERE
 
 _GREEN = 1  # the one channel that is rendered
+_CAMERA = ("position", "right", "up", "forward", "tan_half_fov", "shift_x", "shift_y")
 
 
-def write_mitsuba_scene(view: View, pixels: NDArray[np.int64], file: Path) -> None:
-    """Write what mitsuba_program.py reads: geometry, haze and the rays of pixels (N, 2).
+def write_peer_scene(view: View, pixels: NDArray[np.int64], file: Path) -> None:
+    """Write what the peers' programs read: geometry, haze, camera, and pixels (N, 2) with rays.
 
     SceneError where the haze is more than one box or not one haze, or a lamp is a sphere.
     """
     scene = read_scene(view.scene.folder)
     origins, directions = pixel_rays(scene, view, pixels)
+    camera = scene.camera(view.camera)
     lo, hi, extinction, albedo = _haze(scene, view.scene.name)
     corners, radiance = _panes(scene, view.scene.name)
     np.savez(
@@ -38,6 +40,9 @@ def write_mitsuba_scene(view: View, pixels: NDArray[np.int64], file: Path) -> No
         albedo=albedo,
         origins=origins,
         directions=directions,
+        pixels=pixels,
+        size=[int(side) for side in view.size.split("x")],
+        **{field: camera[field] for field in _CAMERA},
     )
 
 
@@ -67,7 +72,7 @@ def _haze(
         raise SceneError(f"{name}: has no haze")
     for field in ("extinction", "albedo"):
         if np.ptp(boxes[field]) > 0:
-            raise SceneError(f"{name}: boxes of haze differ in {field}; Mitsuba is given one")
+            raise SceneError(f"{name}: boxes of haze differ in {field}; peers are given one")
     lo, hi = boxes["lo"].min(axis=0).astype(float), boxes["hi"].max(axis=0).astype(float)
     media = float(np.prod(boxes["hi"].astype(float) - boxes["lo"], axis=1).sum())
     if not np.isclose(media + _building_volume(scene), np.prod(hi - lo), rtol=1e-4):
@@ -93,7 +98,7 @@ def _panes(scene: FlatScene, name: str) -> tuple[NDArray[np.float64], NDArray[np
     if not len(windows):
         raise SceneError(f"{name}: no window is lit")
     if np.any(windows["flags"] & WINDOW_SPHERE):
-        raise SceneError(f"{name}: a lamp is a sphere; Mitsuba is given rectangles only")
+        raise SceneError(f"{name}: a lamp is a sphere; peers are given rectangles only")
     centre, u, v = (windows[field].astype(float) for field in ("centre", "half_u", "half_v"))
     corners = np.stack([centre - u - v, centre + u - v, centre + u + v, centre - u + v], axis=1)
     area = 4 * np.linalg.norm(np.cross(u, v), axis=1)
