@@ -50,7 +50,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         metavar="TABLE",
         help="without one: time, memory and size of every step, and every method beside the march",
     )
-    for add in (_accuracy, _ladder, add_mitsuba, add_cycles, _growth, _paper):
+    for add in (_accuracy, _ladder, add_mitsuba, add_cycles, _growth, _paper, _flicker):
         add(tables)
 
 
@@ -230,5 +230,42 @@ def _paper(tables: argparse._SubParsersAction) -> None:
         paper_tables(
             PaperOptions(tables, options.size, options.grids, options.tolerance, options.rounds)
         )
+
+    table.set_defaults(run=run)
+
+
+def _flicker(tables: argparse._SubParsersAction) -> None:
+    table = tables.add_parser(
+        "flicker",
+        help="how steady the error of every method is from frame to frame of a shot",
+        description="A patch of 16 pixels in every frame, against the judge.",
+    )
+    table.add_argument(
+        "scene",
+        nargs="?",
+        metavar="SCENE",
+        help="a stage or flat scene with frames (default: 24 frames over 30 x 30 buildings, "
+        "18:00 to 02:00)",
+    )
+    table.add_argument("--methods", type=names, default=["gauss", "field"], metavar="NAMES")
+    table.add_argument("--tolerance", type=number, default=0.01, help="(default: %(default)s)")
+    table.add_argument(
+        "--emitter", default="lambertian", choices=("isotropic", "lambertian", "pane")
+    )
+    table.add_argument("--camera", default="flight", help="(default: %(default)s)")
+    table.add_argument("--size", default="1920x1061", metavar="WIDTHxHEIGHT")
+    table.add_argument(
+        "--frames", type=wholes, default=[1, 24], metavar="FIRST,LAST", help="(default: 1,24)"
+    )
+
+    def run(options: argparse.Namespace) -> None:
+        from nightcity.bench.flicker import METHODS, FlickerOptions, flicker
+
+        check("--methods", options.methods, METHODS)
+        chosen = FlickerOptions(
+            options.methods, options.tolerance, options.emitter, options.camera, options.size,
+            (options.frames[0], options.frames[-1]),
+        )  # fmt: skip
+        flicker(options.scene, chosen)
 
     table.set_defaults(run=run)

@@ -72,7 +72,9 @@ def open_scene(
 
 
 def _text(value: object) -> str:
-    return "x".join(f"{part:g}" for part in value) if isinstance(value, tuple) else f"{value:g}"
+    if isinstance(value, tuple):
+        return "x".join(map(_text, value))
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def open_town(file: Path, work: Path) -> MeasuredScene:
