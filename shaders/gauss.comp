@@ -97,11 +97,10 @@ float windowOver(Window window, Stretch stretch, Hiders hiders, vec2 range, floa
     return sum / (pieces * pieces);
 }
 
-// Radiance, W m^-2 sr^-1. `soFar`: the mean of the channels of what is known.
-vec3 windowGlow(uint index, Stretch stretch, float scale, float soFar) {
-    Window window = WindowArray(sceneTable.windows).at[index];
-    vec2 range = litRange(window, stretch);
-    Hiders hiders = findHiders(window, stretch, range, 1.0);
+// Radiance of a part of the stretch, W m^-2 sr^-1. `soFar`: the mean of the channels of what is
+// known.
+vec3 partGlow(Window window, Stretch stretch, Hiders hiders, vec2 range, float scale,
+              float soFar) {
     vec3 power = window.power * window.colour;
     float perWatt = scale * meanOf(power);
     float depthAcross = stretch.extinction * length(window.halfU + window.halfV);
@@ -122,6 +121,23 @@ vec3 windowGlow(uint index, Stretch stretch, float scale, float soFar) {
         pieces *= spread == 1.0 ? 2.0 : 1.0;
     }
     return scale * power * sum;
+}
+
+// Radiance, W m^-2 sr^-1. A part that more faces may hide than are kept is halved.
+vec3 windowGlow(uint index, Stretch stretch, float scale, float soFar) {
+    Window window = WindowArray(sceneTable.windows).at[index];
+    vec2 range = litRange(window, stretch);
+    vec2 part = range;
+    vec3 glow = vec3(0.0);
+    while (part.x < part.y) {
+        Hiders hiders = findHiders(window, stretch, part, 1.0);
+        bool fits = hiders.count <= kMostFaces || part.y - part.x <= kSliver * stretch.span;
+        if (fits) {
+            glow += partGlow(window, stretch, hiders, part, scale, soFar + meanOf(glow));
+        }
+        part = fits ? vec2(part.y, range.y) : vec2(part.x, 0.5 * (part.x + part.y));
+    }
+    return glow;
 }
 
 bool maySee(uint index, Stretch stretch) {

@@ -10,10 +10,12 @@
 #include "light_reach.glsl"
 #include "occluders.glsl"
 
-const uint kMostFaces = 64u;  // that are kept for a window
-const float kNearby = 30.0;   // m
+const uint kMostFaces = 512u;  // that are kept for a window
+const uint kMostCandidates = 64u;
+const float kNearby = 30.0;    // m
 
 uint hidingFaces[kMostFaces];
+uint candidates[kMostCandidates];
 
 struct Hiders {
     Between between;
@@ -21,29 +23,42 @@ struct Hiders {
     uint count;   // faces, also those beyond kMostFaces
 };
 
-// Whether all corners of a face lie on one side of the plane through origin and stretch.
-bool liesAside(OccluderFace face, Between between) {
-    vec2 heights = vec2(1e30, -1e30);
+// Whether a face may hide any of the window from the part: some of it lies in the wedge, and it is
+// not the wall that the window lies on (isOwnWall, with which it shares the corners read).
+bool mayHide(uint index, Hiders hiders) {
+    OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
+    Between between = hiders.between;
+    vec2 across = vec2(1e30, -1e30);
+    vec2 before = across;
+    vec2 inward = vec2(-1e30);
     for (uint k = 0u; k < face.cornerCount; ++k) {
-        vec3 corner = Vec3Array(sceneTable.occluderCorners).at[face.firstCorner + k];
-        float height = dot(between.normal, corner - between.origin);
-        heights = vec2(min(heights.x, height), max(heights.y, height));
+        vec3 corner = Vec3Array(sceneTable.occluderCorners).at[face.firstCorner + k] -
+                      between.origin;
+        float height = dot(between.normal, corner);
+        across = vec2(min(across.x, height), max(across.y, height));
+        inward = max(inward, vec2(dot(between.beginSide, corner), dot(between.endSide, corner)));
+        height = dot(hiders.normal, corner);
+        before = vec2(min(before.x, height), max(before.y, height));
     }
-    return heights.x > between.thickness || heights.y < -between.thickness;
+    bool isOwnWall = before.x >= -kPaneOnWall && before.y <= kPaneOnWall && before.y > 0.0;
+    return across.x <= between.thickness && across.y >= -between.thickness &&
+           all(greaterThanEqual(inward, -between.depths)) && !isOwnWall &&
+           mayCrossPlane(between, face);
 }
 
-// The next face that may hide any of the window, or kNone. `walk` is 0 at first.
-uint nextHiding(inout uint walk, Hiders hiders) {
-    uint index = nextOccluder(walk, hiders.between);
-    while (index != kNone) {
-        OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
-        if (!liesAside(face, hiders.between) &&
-            !isOwnWall(face, hiders.between.origin, hiders.normal)) {
-            break;
-        }
-        index = nextOccluder(walk, hiders.between);
+// Fills candidates with the next faces whose bounds may lie between, until the walk ends or they
+// are full, and returns their number. A loop of its own: rays that run side by side wait for
+// none of them to look at a face.
+uint nextCandidates(inout uint walk, uint end, Between between) {
+    uint count = 0u;
+    while (walk < end && count < kMostCandidates) {
+        BoxNode node = BoxNodeArray(sceneTable.occluderNodes).at[walk];
+        bool touches = mayLieBetween(between, node.lo - between.origin, node.hi - between.origin);
+        candidates[count] = node.item;
+        count += touches && node.item != kNone ? 1u : 0u;
+        walk = touches ? walk + 1u : node.next;
     }
-    return index;
+    return count;
 }
 
 // `range`: t of the part's begin and end, m; `share`: of the ways from the window to the part,
@@ -62,26 +77,39 @@ Hiders findHiders(Window window, Stretch stretch, vec2 range, float share) {
         betweenBoxAndStretch(window.centre, reach, share * (begin + range.x * stretch.direction),
                              share * (begin + range.y * stretch.direction));
     uint walk = 0u;
-    for (uint face = nextHiding(walk, hiders); face != kNone; face = nextHiding(walk, hiders)) {
-        if (hiders.count < kMostFaces) {
-            hidingFaces[hiders.count] = face;
+    uint end = sceneTable.occluderNodes == uvec2(0)
+                   ? 0u : BoxNodeArray(sceneTable.occluderNodes).at[0].next;
+    while (walk < end) {
+        uint count = nextCandidates(walk, end, hiders.between);
+        for (uint k = 0u; k < count; ++k) {
+            if (mayHide(candidates[k], hiders)) {
+                hidingFaces[min(hiders.count, kMostFaces - 1u)] = candidates[k];
+                ++hiders.count;
+            }
         }
-        ++hiders.count;
     }
     return hiders;
 }
 
-// The next of the faces found, from number `k` on; `walk` is 0 at first.
-uint hidingFace(Hiders hiders, uint k, inout uint walk) {
-    return hiders.count <= kMostFaces ? hidingFaces[k] : nextHiding(walk, hiders);
+// The next face that hidingFaces has no room for, or kNone. `walk` and `passed` are 0 at first.
+uint nextUnkept(Hiders hiders, inout uint walk, inout uint passed) {
+    uint index = hiders.count > kMostFaces ? nextOccluder(walk, hiders.between) : kNone;
+    while (index != kNone) {
+        bool hides = mayHide(index, hiders);
+        passed += hides ? 1u : 0u;
+        if (hides && passed > kMostFaces) {
+            break;
+        }
+        index = nextOccluder(walk, hiders.between);
+    }
+    return index;
 }
 
 // The shadows on a range of the stretch, for one point of the window.
 Shadows shadowsOn(PointView view, Hiders hiders, vec2 range) {
     Shadows shadows = noShadows(range.x, range.y);
-    uint walk = 0u;
-    for (uint k = 0u; k < hiders.count && shadows.from < range.y; ++k) {
-        addShadow(shadows, shadowOf(view, hidingFace(hiders, k, walk)));
+    for (uint k = 0u; k < min(hiders.count, kMostFaces) && shadows.from < range.y; ++k) {
+        addShadow(shadows, shadowOf(view, hidingFaces[k]));
     }
     return shadows;
 }

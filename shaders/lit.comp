@@ -72,9 +72,14 @@ bool stands(uint index, SurfacePoint point, vec3 way) {
 
 bool isHidden(SurfacePoint point, vec3 way, Hiders hiders) {
     bool isHidden = false;
+    for (uint k = 0u; k < min(hiders.count, kMostFaces) && !isHidden; ++k) {
+        isHidden = stands(hidingFaces[k], point, way);
+    }
     uint walk = 0u;
-    for (uint k = 0u; k < hiders.count && !isHidden; ++k) {
-        isHidden = stands(hidingFace(hiders, k, walk), point, way);
+    uint passed = 0u;
+    for (uint face = nextUnkept(hiders, walk, passed); face != kNone && !isHidden;
+         face = nextUnkept(hiders, walk, passed)) {
+        isHidden = stands(face, point, way);
     }
     return isHidden;
 }
