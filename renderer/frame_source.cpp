@@ -12,18 +12,26 @@ namespace nightcity {
 
 namespace {
 
+constexpr double kBakeShare = 0.9;  // of a frame that bakes first
+
 class DeviceFrames final : public FrameSource {
 public:
     DeviceFrames(const FlatScene& scene, const Options& options)
         : scene_(scene), settings_(options.settings), delegate_(RenderDelegate::create(options.device)) {}
 
     Frame render(const RenderProduct& product, const ProgressCallback& progress) override {
+        double baked = 0;
         if (syncedFrame_ != product.frame) {
             const SceneChanges changes{.geometry = !syncedFrame_, .windowState = true};
-            delegate_->sync(scene_, product.camera, product.frame, settings_, changes);
+            delegate_->sync(scene_, product.camera, product.frame, settings_, changes,
+                            [&](double share) {
+                                baked = kBakeShare * share;
+                                progress(baked);
+                            });
             syncedFrame_ = product.frame;
         }
-        delegate_->render(product, settings_, progress);
+        delegate_->render(product, settings_,
+                          [&](double share) { progress(baked + (1 - baked) * share); });
         return delegate_->resolve();
     }
 

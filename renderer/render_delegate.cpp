@@ -3,6 +3,7 @@
 #include "render_delegate.h"
 
 #include <chrono>
+#include <cmath>
 #include <ranges>
 #include <stdexcept>
 #include <utility>
@@ -25,21 +26,22 @@ constexpr std::uint64_t kMostPixels = 1u << 30;  // pixel numbers are 32 bits on
 struct FarStep {
     double tolerance;
     float spacing;  // m
+    float spread;   // FarFieldSettings
 };
-constexpr FarStep kFarSteps[] = {{0.03, 1.0f}, {0.01, 0.5f}};
-constexpr float kWidestSpacing = 1.43f;  // m, for larger tolerances
+constexpr FarStep kFarSteps[] = {{0.03, 1.0f, 0.1f}, {0.01, 0.5f, 0.06f}};
+constexpr FarStep kWidestStep = {INFINITY, 1.43f, 0.12f};  // for larger tolerances
 // Near windows cost as the square of the near radius; below so many spacings the far part has
 // peaks that the nodes miss.
 constexpr float kRadiusSpacings = 6;
 constexpr float kLargestRadius = 4;  // m
 
-float farSpacing(double tolerance) {
+FarStep farStep(double tolerance) {
     for (const FarStep& step : std::views::reverse(kFarSteps)) {
         if (tolerance <= step.tolerance) {
-            return step.spacing;
+            return step;
         }
     }
-    return kWidestSpacing;
+    return kWidestStep;
 }
 
 FarFieldSettings farFieldSettings(const RenderSettings& settings, const CameraTrack& camera) {
@@ -49,7 +51,9 @@ FarFieldSettings farFieldSettings(const RenderSettings& settings, const CameraTr
     }
     far.emitter = settings.model.emitter;
     far.visibility = settings.model.visibility;
-    far.spacing = farSpacing(settings.tolerance.value_or(kFieldTolerance));
+    const FarStep step = farStep(settings.tolerance.value_or(kFieldTolerance));
+    far.spacing = step.spacing;
+    far.spread = step.spread;
     far.nearRadius = std::min(kRadiusSpacings * far.spacing, kLargestRadius);
     return far;
 }
@@ -76,7 +80,8 @@ public:
     }
 
     void sync(const FlatScene& scene, const std::string& camera, int frame,
-              const RenderSettings& settings, const SceneChanges& changes) override {
+              const RenderSettings& settings, const SceneChanges& changes,
+              const ProgressCallback& progress) override {
         const auto start = std::chrono::steady_clock::now();
         const bool all = flatScene_ != &scene;
         flatScene_ = nullptr;  // until all of it is on the device
@@ -86,7 +91,7 @@ public:
         scene_.syncWindowState(scene, frame, settings);
         if (settings.method == Method::field) {
             scene_.syncFarField(scene, scene.windowsOn(frame),
-                                farFieldSettings(settings, scene.camera(camera)));
+                                farFieldSettings(settings, scene.camera(camera)), progress);
         }
         flatScene_ = &scene;
         renderer_.sceneChanged();

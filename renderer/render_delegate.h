@@ -40,8 +40,10 @@ public:
 
     // The scene must outlive the delegate or the next sync. `settings` gives cap and storage.
     // `camera` is that of the shot: where it is at any frame chooses what is baked how finely.
+    // `progress` is called while a bake goes on; what it throws ends the bake.
     virtual void sync(const FlatScene& scene, const std::string& camera, int frame,
-                      const RenderSettings& settings, const SceneChanges& changes) = 0;
+                      const RenderSettings& settings, const SceneChanges& changes,
+                      const ProgressCallback& progress = {}) = 0;
     virtual void render(const RenderProduct& product, const RenderSettings& settings,
                         const ProgressCallback& progress) = 0;
     virtual Frame resolve() = 0;                       // of the last render

@@ -14,6 +14,7 @@ layout(constant_id = NIGHTCITY_CONSTANT_FAR_VISIBILITY) const uint kFarVisibilit
 NIGHTCITY_ARRAY(FarLightArray, FarLight)
 NIGHTCITY_ARRAY(FarEntryArray, FarEntry)
 NIGHTCITY_ARRAY(Uvec3Array, uvec3)
+NIGHTCITY_ARRAY(Uvec2Array, uvec2)
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FarBakeReference {
     FarBakeTable table;
@@ -31,6 +32,17 @@ uint groupInBatch() {
 }
 uint groupBrick() {
     return push.firstPixel + gl_WorkGroupID.x;
+}
+
+// Entries of the brick: from the front of its part of the array, and from the end.
+uvec2 entryCounts() {
+    return Uvec2Array(bakeTable.entryCounts).at[groupInBatch()];
+}
+
+// Of those counted on from the front to the end.
+uint entryAt(uint number, uvec2 counts) {
+    uint skipped = number < counts.x ? 0u : bakeTable.entryCapacity - counts.x - counts.y;
+    return groupInBatch() * bakeTable.entryCapacity + skipped + number;
 }
 
 // Of a node along each axis, from 0.

@@ -14,6 +14,11 @@
 
 const uint kColumnNodes = kBrickSide;
 const float kNearestPoint = 1e-6;  // m, from a point source: closer nodes count as so far
+const float kExactHazeSides = 3.0;  // of a brick in different hazes: Column.exactHaze
+// Of a haze over the side of a brick: in thicker ones the places where haze is asked for are too far
+// apart for its borders.
+const float kSmoothDepth = 0.15;
+const float kEverywhere = 1e15;     // m; a float holds its square
 const uint kAllNodes = (1u << kColumnNodes) - 1u;
 
 struct Column {
@@ -21,8 +26,8 @@ struct Column {
     float spacing;  // m
     float halfSide; // m, of the brick
     bool isCoarse;  // nodes are too far apart for the shape of a pane
-    vec3 hazeLo, hazeHi;  // of the brick's first medium, from its centre, m
-    bool oneHaze;         // in all of the brick
+    float exactHaze;  // m, of windows nearer than so each node asks for the haze on its way
+    vec3 acrossX, acrossY;  // weights of the three places of a layer along each axis
 };
 
 // Bit i of each: whether node i does not see that point of the pane.
@@ -43,8 +48,9 @@ FarWindow windowOfLane(FarWindow mine, uint lane) {
     window.faceCount = subgroupBroadcast(mine.faceCount, lane);
     window.extinction = subgroupBroadcast(mine.extinction, lane);
     if (window.extinction < 0.0) {
-        window.lowWays = subgroupBroadcast(mine.lowWays, lane);
-        window.highWays = subgroupBroadcast(mine.highWays, lane);
+        [[unroll]] for (uint i = 0u; i < 3u * kWayWords; ++i) {
+            window.ways[i] = subgroupBroadcast(mine.ways[i], lane);
+        }
     }
     window.corners = subgroupBroadcast(mine.corners, lane);
     return window;
@@ -208,11 +214,18 @@ vec2 seenFromCorners(uint corners, vec2 place) {
     return 0.25 * vec2(dot(low, weights), dot(high, weights));
 }
 
+float exactHaze(FarBrick brick, float side) {
+    return bakeTable.thickest * side > kSmoothDepth ? kEverywhere
+           : brick.mediumCount > 1u                 ? kExactHazeSides * side
+                                                    : 0.0;
+}
+
 // A window that is far enough to be a point with a second-order term.
 bool isQuick(FarWindow window, Column column) {
     vec3 gap = max(abs(window.centre) - column.halfSide, vec3(0.0));
-    return !window.isSphere &&
-           (window.extinction >= 0.0 || column.oneHaze || column.isCoarse) &&
+    bool isSmooth = window.extinction >= 0.0 || column.isCoarse ||
+                    dot(gap, gap) >= column.exactHaze * column.exactHaze;
+    return !window.isSphere && isSmooth &&
            (kFarEmitter != kEmitterPane || column.isCoarse || dot(gap, gap) > window.exactBelow);
 }
 
@@ -230,26 +243,28 @@ float meanExtinction(FarWindow window, vec3 place, vec3 origin, FarFieldTable fi
 }
 
 // 1/m, the means of the ways to nodes 0, 4 and 8.
-vec3 columnExtinction(FarWindow window, Column column, vec3 origin, FarFieldTable field) {
+vec3 columnExtinction(FarWindow window, Column column) {
     if (window.extinction >= 0.0) {
         return vec3(window.extinction);
     }
     vec3 extinction;
-    for (uint i = 0u; !column.isCoarse && i < 3u; ++i) {
-        // Beyond the haze goes on what is at its border: there the field has no kink.
-        vec3 place = column.foot + vec3(0.0, 0.0, 4.0 * float(i) * column.spacing);
-        place = clamp(place, column.hazeLo, column.hazeHi);
-        extinction[i] = meanExtinction(window, place, origin, field);
-    }
-    if (!column.isCoarse) {
-        return extinction;
-    }
-    vec4 weights = edgeWeights(0.5 * column.foot.xy / column.halfSide + 0.5);
-    [[unroll]] for (uint i = 0u; i < 3u; ++i) {
-        vec4 edges = vec4(unpackHalf2x16(window.lowWays[i]), unpackHalf2x16(window.highWays[i]));
-        extinction[i] = dot(edges, weights);
+    [[unroll]] for (uint layer = 0u; layer < kWaySide; ++layer) {
+        vec2 pair[kWayWords];
+        [[unroll]] for (uint i = 0u; i < kWayWords; ++i) {
+            pair[i] = unpackHalf2x16(window.ways[layer * kWayWords + i]);
+        }
+        vec3 rows = vec3(dot(column.acrossX, vec3(pair[0], pair[1].x)),
+                         dot(column.acrossX, vec3(pair[1].y, pair[2])),
+                         dot(column.acrossX, vec3(pair[3], pair[4].x)));
+        extinction[layer] = dot(column.acrossY, rows);
     }
     return extinction;
+}
+
+// Of three places at 0, 1/2 and 1.
+vec3 betweenThree(float place) {
+    float fromMiddle = 2.0 * place - 1.0;
+    return vec3(max(-fromMiddle, 0.0), 1.0 - abs(fromMiddle), max(fromMiddle, 0.0));
 }
 
 float extinctionAt(vec3 extinction, uint i) {
@@ -257,7 +272,7 @@ float extinctionAt(vec3 extinction, uint i) {
                    : mix(extinction.y, extinction.z, 0.25 * float(i) - 1.0);
 }
 
-QuickColumn quickColumn(FarWindow window, Column column, vec3 origin, FarFieldTable field) {
+QuickColumn quickColumn(FarWindow window, Column column, FarFieldTable field) {
     vec3 way = column.foot - window.centre;
     QuickColumn quick;
     quick.foot = vec3(dot(way, window.u), dot(way, window.v), dot(way, window.normal));
@@ -265,7 +280,7 @@ QuickColumn quickColumn(FarWindow window, Column column, vec3 origin, FarFieldTa
     quick.secondOrder = kFarEmitter == kEmitterPane
                             ? vec2(window.a * window.a, window.b * window.b)
                             : vec2(0.0);
-    quick.extinction = columnExtinction(window, column, origin, field);
+    quick.extinction = columnExtinction(window, column);
     quick.perDistance = kFarEmitter == kEmitterIsotropic ? 0.5 / kTurn : 2.0 / kTurn;
     quick.inverseRadius = 1.0 / (field.nearRadius * field.nearRadius);
     return quick;

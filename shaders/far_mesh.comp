@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which points of a brick's mesh see the lights of its entries whose sight is that of the mesh
-// (far_mesh.glsl): one way each, from another part of the light than its neighbours'.
+// What lies on the ways from the lights of a batch's entries to their brick: from which points of
+// its mesh (far_mesh.glsl) a light is seen, one way each, from another part of the light than its
+// neighbours', or from which of its corners; and how much haze is between. All of an
+// entry's ways are asked by one thread or few, so that no thread waits for others' lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -10,6 +12,14 @@
 #include "far_window.glsl"
 
 layout(local_size_x = kGroupSize) in;
+
+const float kShortestWay = 1e-6;  // m
+
+shared vec3 wayEnds[kWaySide * kWaySide * kWaySide];  // m, from the brick's centre
+
+uint firstEntry() {
+    return groupInBatch() * bakeTable.entryCapacity;
+}
 
 // Whether a place is behind all panes of a light.
 bool isBehind(FarLight light, vec3 way) {
@@ -30,19 +40,127 @@ bool sees(vec3 place, uvec3 point, FarLight light, uint index, FarWindow window,
     return !isBelow && !isHiddenByAny(part, place, origin);
 }
 
-uint layerSees(uint entry, uint layer, FarBrick brick, float side, vec3 origin) {
+// Of a row of points along x, one every `stride`: threads side by side walk much the same ways.
+uint rowSees(uint entry, uvec2 row, uint stride, FarBrick brick, float side, vec3 origin) {
     uint index = FarEntryArray(bakeTable.entries).at[entry].light;
     FarLight light = FarLightArray(bakeTable.lights).at[index];
     FarWindow window = farWindow(entry, origin);
     uint word = 0u;
-    for (uint i = 0u; i < kMeshSide * kMeshSide; ++i) {
-        uvec3 point = uvec3(i % kMeshSide, i / kMeshSide, layer);
+    for (uint i = 0u; i < kMeshSide; i += stride) {
+        uvec3 point = uvec3(i, row);
         vec3 place = (vec3(point) / float(kMeshSide - 1u) - 0.5) * side;
         // Neighbouring bricks agree on what they share.
-        uvec3 number = (brick.cell >> brick.scale) * (kMeshSide - 1u) + point;
+        uvec3 number = ((brick.cell >> brick.scale) * (kMeshSide - 1u) + point) / stride;
         word |= sees(place, number, light, index, window, origin) ? 1u << i : 0u;
     }
     return word;
+}
+
+// What is between asked points sees what one of those about it does, now this one, now that.
+uint filledWord(uint entry, uint layer) {
+    uint word = 0u;
+    uint turn = (FarEntryArray(bakeTable.entries).at[entry].light * 2654435761u) >> 16;
+    for (uint i = 0u; i < kMeshSide * kMeshSide; ++i) {
+        uvec3 point = uvec3(i % kMeshSide, i / kMeshSide, layer);
+        uvec3 odd = point & 1u;
+        uvec3 bits = uvec3(turn >> (i & 7u), turn >> (i * 3u + 1u & 7u), turn >> (layer + 8u)) & 1u;
+        uvec3 asked = point - odd + 2u * odd * bits;
+        uint seen = FarEntryArray(bakeTable.entries).at[entry].face[asked.z];
+        word |= (seen >> asked.y * kMeshSide + asked.x & 1u) << i;
+    }
+    return word;
+}
+
+// The nearest place in the brick's haze: what is found there goes on beyond it, so that the field
+// has no kink at the border of the haze. From the brick's centre.
+vec3 inHaze(vec3 place, vec3 origin, FarBrick brick, FarFieldTable field) {
+    vec3 nearest = place;
+    float least = 1e30;
+    for (uint i = 0u; i < brick.mediumCount; ++i) {
+        uint index = UintArray(field.mediumList).at[brick.firstMedium + i];
+        FarMedium medium = MediaArray(field.media).at[index];
+        vec3 inside = clamp(place, medium.lo - origin, medium.hi - origin);
+        float distance = dot(inside - place, inside - place);
+        if (distance < least) {
+            least = distance;
+            nearest = inside;
+        }
+    }
+    return nearest;
+}
+
+// 1/m.
+float meanExtinction(vec3 from, vec3 to, vec3 origin, FarFieldTable field) {
+    return depthThroughMedia(from, to, origin, field) / max(length(to - from), kShortestWay);
+}
+
+// The haze on the ways to a layer of places. Of a coarse brick the one in the middle speaks for its
+// layer: over the roofs haze differs by height.
+void findHaze(uint entry, uint layer, FarBrick brick, vec3 origin, FarFieldTable field) {
+    uint index = FarEntryArray(bakeTable.entries).at[entry].light;
+    vec3 from = FarLightArray(bakeTable.lights).at[index].centre - origin;
+    uint first = layer * kWaySide * kWaySide;
+    float middle = meanExtinction(from, wayEnds[first + kWaySide * kWaySide / 2u], origin, field);
+    for (uint i = 0u; i < kWayWords; ++i) {
+        FarEntryArray(bakeTable.entries).at[entry].ways[layer * kWayWords + i] =
+            packHalf2x16(vec2(middle));
+    }
+    for (uint i = 0u; brick.scale == 0u && i < kWayWords; ++i) {
+        uvec2 pair = min(uvec2(2u * i, 2u * i + 1u), uvec2(kWaySide * kWaySide - 1u)) + first;
+        FarEntryArray(bakeTable.entries).at[entry].ways[layer * kWayWords + i] =
+            packHalf2x16(vec2(meanExtinction(from, wayEnds[pair.x], origin, field),
+                              meanExtinction(from, wayEnds[pair.y], origin, field)));
+    }
+}
+
+void findMesh(uint entries, FarBrick brick, vec3 origin, FarFieldTable field) {
+    float side = brickSide(field, brick);
+    uint stride = brick.scale == 0u ? 1u : 2u;
+    uint across = (kMeshSide - 1u) / stride + 1u;
+    uint rows = across * across;
+    for (uint i = gl_LocalInvocationIndex; i < entries * rows; i += kGroupSize) {
+        uint entry = firstEntry() + i / rows;
+        if (FarEntryArray(bakeTable.entries).at[entry].faceCount == kMesh) {
+            uvec2 row = stride * uvec2(i % rows % across, i % rows / across);
+            uint bits = rowSees(entry, row, stride, brick, side, origin);
+            atomicOr(FarEntryArray(bakeTable.entries).at[entry].face[row.y],
+                     bits << row.x * kMeshSide);
+        }
+    }
+    barrier();
+    for (uint odd = 0u; stride > 1u && odd < 2u; ++odd) {  // odd layers read even ones as asked
+        for (uint i = gl_LocalInvocationIndex; i < entries * kMeshSide; i += kGroupSize) {
+            uint entry = firstEntry() + i / kMeshSide;
+            uint layer = i % kMeshSide;
+            bool isMine = (layer & 1u) == 1u - odd &&
+                          FarEntryArray(bakeTable.entries).at[entry].faceCount == kMesh;
+            if (isMine) {
+                FarEntryArray(bakeTable.entries).at[entry].face[layer] = filledWord(entry, layer);
+            }
+        }
+        barrier();
+    }
+    for (uint i = gl_LocalInvocationIndex; i < entries * kWaySide; i += kGroupSize) {
+        uint entry = firstEntry() + i / kWaySide;
+        if (FarEntryArray(bakeTable.entries).at[entry].extinction < 0.0) {
+            findHaze(entry, i % kWaySide, brick, origin, field);
+        }
+    }
+}
+
+void findClusters(uvec2 counts, FarBrick brick, vec3 origin, FarFieldTable field) {
+    vec3 halfSides = vec3(0.5 * brickSide(field, brick));
+    for (uint i = gl_LocalInvocationIndex; i < counts.y; i += kGroupSize) {
+        uint entry = entryAt(counts.x + i, counts);
+        uint index = FarEntryArray(bakeTable.entries).at[entry].light;
+        uint seen = seenFromCorners(index, brick, origin, halfSides);
+        FarEntryArray(bakeTable.entries).at[entry].face[0] = seen;
+        if (seen != 0u && FarEntryArray(bakeTable.entries).at[entry].extinction < 0.0) {
+            vec3 from = FarLightArray(bakeTable.lights).at[index].centre - origin;
+            FarEntryArray(bakeTable.entries).at[entry].extinction =
+                meanExtinction(from, vec3(0.0), origin, field);
+        }
+    }
 }
 
 void main() {
@@ -50,14 +168,14 @@ void main() {
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
     float side = brickSide(field, brick);
     vec3 origin = brickCorner(field, brick) + 0.5 * side;
-    uint firstEntry = groupInBatch() * bakeTable.entryCapacity;
-    uint entries = UintArray(bakeTable.entryCounts).at[groupInBatch()];
-    for (uint i = gl_LocalInvocationIndex; i < entries * kMeshSide; i += kGroupSize) {
-        uint entry = firstEntry + i / kMeshSide;
-        if (FarEntryArray(bakeTable.entries).at[entry].faceCount == kMesh) {
-            uint layer = i % kMeshSide;
-            FarEntryArray(bakeTable.entries).at[entry].face[layer] =
-                layerSees(entry, layer, brick, side, origin);
-        }
+    uint thread = gl_LocalInvocationIndex;
+    if (thread < kWaySide * kWaySide * kWaySide) {
+        uvec3 number = uvec3(thread, thread / kWaySide, thread / (kWaySide * kWaySide)) % kWaySide;
+        vec3 place = (vec3(number) / float(kWaySide - 1u) - 0.5) * side;
+        wayEnds[thread] = inHaze(place, origin, brick, field);
     }
+    barrier();
+    uvec2 counts = entryCounts();
+    findMesh(counts.x, brick, origin, field);
+    findClusters(counts, brick, origin, field);
 }

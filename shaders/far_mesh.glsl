@@ -55,14 +55,6 @@ MeshSight meshSight(uint entry, MeshColumn column) {
     return sight;
 }
 
-bool isDark(MeshSight sight) {
-    float sum = 0.0;
-    [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
-        sum += sight.seen[layer];
-    }
-    return sum == 0.0;
-}
-
 // From node i of the column.
 float meshShare(MeshSight sight, MeshColumn column, uint i) {
     uint low = i / 2u;

@@ -15,17 +15,16 @@ layout(local_size_x = kGroupSize) in;
 
 const float kFullSpread = 20.0;     // near radii, up to which the spread is that of the table
 const float kLargestSpread = 0.25;
-const uint kBlurredScale = 2u;      // of bricks whose nodes are too far apart for single windows
+const float kCornerShare = 0.4;
+const float kBlurredReach = 2.67;
+const uint kBlurredScale = 1u;      // of bricks whose nodes are too far apart for single windows
 const uint kLargestHiddenFrom = 1u; // scale of bricks that one face often hides from a light
-const uint kWayEnds = 12u;          // as FarEntry has them
-const float kShortestWay = 1e-6;    // m
 
 // Lights still to be looked at. A round takes the last kGroupSize of them and puts
 // back at most two for each: as deep as the tree is, no more than kFarStack are there.
 shared uint stack[kFarStack];
 shared uint stackSize;
 shared uint bound;  // of the sums, in boundUnit
-shared vec3 wayEnds[kWayEnds];  // m, from the brick's centre
 
 bool hasChanged(uint light) {
     return (UintArray(bakeTable.changed).at[light >> 5] >> (light & 31u) & 1u) != 0u;
@@ -72,7 +71,7 @@ float largestFluence(FarLight light, vec3 way, vec3 brickHalf, float nearRadius)
 // Of the distance, the share that a light may be half as large as to be one point. What is far
 // away is mostly hidden, and what a large brick says is less exact anyway.
 float spreadAt(float gap, FarBrick brick, float nearRadius) {
-    float growth = max(1.0, sqrt(gap / (kFullSpread * nearRadius))) * float(1u << brick.scale);
+    float growth = max(1.0, sqrt(gap / (kFullSpread * nearRadius))) * float(1u << 2u * min(brick.scale, 4u));
     return min(bakeTable.spread * growth, max(bakeTable.spread, kLargestSpread));
 }
 
@@ -92,61 +91,32 @@ uint howSeen(FarLight light, vec3 way, vec3 brickHalf, FarBrick brick, float nea
     float reach = length(light.reach);
     float spread = spreadAt(gap, brick, nearRadius);
     bool isFar = reach <= spread * gap && gap >= nearRadius + reach;
-    if (isFar && length(brickHalf) <= spread * gap) {
+    float cornerShare = brick.scale == 0u ? spread : max(spread, kCornerShare);
+    if (isFar && length(brickHalf) <= cornerShare * gap) {
         return kSeenFromCorners;
     }
     bool isSmall = brick.scale >= kBlurredScale && bakeTable.spread > 0.0 &&
-                   reach * float(kBrickSteps) <= brickHalf.x;
+                   reach * kBlurredReach <= brickHalf.x;
     return brick.scale > 0u && (isFar || isSmall) ? kSeenAsPoint : kSeenApart;
 }
 
-// The nearest place in the brick's haze: what is found there goes on beyond it, so that the field
-// has no kink at the border of the haze. From the brick's centre.
-vec3 inHaze(vec3 place, vec3 brickCentre, FarBrick brick) {
+// 1/m; negative where it differs from way to way.
+float extinctionOnTheWay(FarLight light, FarBrick brick) {
     FarFieldTable field = bakedField;
-    vec3 nearest = place;
-    float least = 1e30;
-    for (uint i = 0u; i < brick.mediumCount; ++i) {
-        uint index = UintArray(field.mediumList).at[brick.firstMedium + i];
-        FarMedium medium = MediaArray(field.media).at[index];
-        vec3 inside = clamp(place, medium.lo - brickCentre, medium.hi - brickCentre);
-        float distance = dot(inside - place, inside - place);
-        if (distance < least) {
-            least = distance;
-            nearest = inside;
-        }
-    }
-    return nearest;
-}
-
-// 1/m, the mean on the way to the brick; negative where it differs from place to place.
-float extinctionOnTheWay(FarLight light, vec3 way, vec3 brickCentre, FarBrick brick,
-                         bool cluster) {
-    FarFieldTable field = bakedField;
-    if (brick.mediumCount == 1u && light.medium != kNone &&
-        UintArray(field.mediumList).at[brick.firstMedium] == light.medium) {
-        return MediaArray(field.media).at[light.medium].extinction;
-    }
-    return cluster ? depthThroughMedia(way, vec3(0.0), brickCentre, field) / length(way) : -1.0;
-}
-
-float meanExtinction(vec3 way, uint end, vec3 brickCentre) {
-    vec3 place = wayEnds[end];
-    return depthThroughMedia(way, place, brickCentre, bakedField) /
-           max(length(place - way), kShortestWay);
+    bool isSame = brick.mediumCount == 1u && light.medium != kNone &&
+                  UintArray(field.mediumList).at[brick.firstMedium] == light.medium;
+    return isSame ? MediaArray(field.media).at[light.medium].extinction : -1.0;
 }
 
 // False where nothing of the light is seen.
-bool findSight(uint index, FarLight light, uint how, vec3 brickCentre, vec3 brickHalf,
-               FarBrick brick, out FarEntry entry) {
-    vec3 way = light.centre - brickCentre;
+bool findSight(FarLight light, uint how, vec3 brickCentre, vec3 brickHalf, FarBrick brick,
+               out FarEntry entry) {
     if (how == kSeenFromCorners) {
         entry.faceCount = kCluster;
-        entry.face[0] = seenFromCorners(index, brick, brickCentre, brickHalf);
-        return entry.face[0] != 0u;
+        return true;
     }
     if (brick.scale == 0u) {
-        return findFaces(light, way, brickCentre, brickHalf, entry);
+        return findFaces(light, light.centre - brickCentre, brickCentre, brickHalf, entry);
     }
     entry.faceCount = kFarVisibility == 0u ? 0u : kMesh;
     return true;
@@ -154,26 +124,25 @@ bool findSight(uint index, FarLight light, uint how, vec3 brickCentre, vec3 bric
 
 void append(uint index, FarLight light, uint how, vec3 brickCentre, vec3 brickHalf,
             FarBrick brick, float nearRadius) {
-    vec3 way = light.centre - brickCentre;
     FarEntry entry;
-    if (!findSight(index, light, how, brickCentre, brickHalf, brick, entry)) {
+    if (!findSight(light, how, brickCentre, brickHalf, brick, entry)) {
         return;
     }
-    float most = largestFluence(light, way, brickHalf, nearRadius);
+    float most = largestFluence(light, light.centre - brickCentre, brickHalf, nearRadius);
     atomicAdd(bound, 1u + uint(most / bakeTable.boundUnit));
     if (!hasChanged(index)) {
         return;
     }
-    entry.light = index;
-    entry.extinction =
-        extinctionOnTheWay(light, way, brickCentre, brick, how == kSeenFromCorners);
-    bool differs = entry.extinction < 0.0 && brick.scale > 0u;
-    for (uint i = 0u; differs && i < kWayEnds / 2u; ++i) {
-        entry.ways[i] = packHalf2x16(vec2(meanExtinction(way, 2u * i, brickCentre),
-                                          meanExtinction(way, 2u * i + 1u, brickCentre)));
+    for (uint i = 0u; entry.faceCount == kMesh && i < kMeshSide; ++i) {
+        entry.face[i] = 0u;  // far_mesh.comp adds to them
     }
-    uint slot = atomicAdd(UintArray(bakeTable.entryCounts).at[groupInBatch()], 1u);
+    entry.light = index;
+    entry.extinction = extinctionOnTheWay(light, brick);
+    bool fromEnd = how == kSeenFromCorners;
+    uint count = 2u * groupInBatch() + (fromEnd ? 1u : 0u);
+    uint slot = atomicAdd(UintArray(bakeTable.entryCounts).at[count], 1u);
     if (slot < bakeTable.entryCapacity) {
+        slot = fromEnd ? bakeTable.entryCapacity - 1u - slot : slot;
         FarEntryArray(bakeTable.entries).at[groupInBatch() * bakeTable.entryCapacity + slot] =
             entry;
     }
@@ -187,10 +156,6 @@ void main() {
     vec3 brickCentre = brickCorner(field, brick) + brickHalf;
     for (uint i = thread; i < bakeTable.rootCount; i += kGroupSize) {
         stack[i] = UintArray(bakeTable.roots).at[i];
-    }
-    if (thread < kWayEnds) {
-        vec3 side = vec3(thread & 1u, thread >> 1 & 1u, 0.5 * float(thread >> 2)) * 2.0 - 1.0;
-        wayEnds[thread] = inHaze(side * brickHalf, brickCentre, brick);
     }
     if (thread == 0u) {
         stackSize = bakeTable.rootCount;

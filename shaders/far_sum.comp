@@ -22,6 +22,22 @@ uvec3 inUnits(float perWatt, vec3 emission, vec3 baked) {
     return bakeTable.update == 0u ? sum : sum - uvec3(ivec3(perWatt * baked + 0.5));
 }
 
+// Of a light, from the nodes of a column.
+float[kColumnNodes] seenShares(FarWindow window, Hidden hidden, MeshSight sight, MeshColumn mesh,
+                               vec2 across) {
+    bool isCluster = window.faceCount == kCluster;
+    bool isMesh = window.faceCount == kMesh;
+    vec2 ends = seenFromCorners(window.corners, across);
+    float seen[kColumnNodes];
+    [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+        float ofCluster = mix(ends.x, ends.y, float(i) / float(kBrickSteps));
+        seen[i] = isCluster ? ofCluster
+                  : isMesh  ? meshShare(sight, mesh, i)
+                            : seenShare(hidden, i);
+    }
+    return seen;
+}
+
 void main() {
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
@@ -31,15 +47,15 @@ void main() {
     column.halfSide = 0.5 * brickSide(field, brick);
     column.foot = column.spacing * vec3(nodePlace(thread)) - column.halfSide;
     vec3 origin = brickCorner(field, brick) + column.halfSide;
-    FarMedium haze = MediaArray(field.media).at[UintArray(field.mediumList).at[brick.firstMedium]];
-    column.hazeLo = haze.lo - origin;
-    column.hazeHi = haze.hi - origin;
     column.isCoarse = brick.scale > 0u;
-    column.oneHaze = brick.mediumCount == 1u;
+    column.exactHaze = exactHaze(brick, brickSide(field, brick));
+    vec2 across = 0.5 * column.foot.xy / column.halfSide + 0.5;
+    column.acrossX = betweenThree(across.x);
+    column.acrossY = betweenThree(across.y);
     MeshColumn mesh = meshColumn(thread);
     float perUnit = 1.0 / FloatArray(bakeTable.units).at[groupBrick()];
-    uint firstEntry = groupInBatch() * bakeTable.entryCapacity;
-    uint entries = UintArray(bakeTable.entryCounts).at[groupInBatch()];
+    uvec2 counts = entryCounts();
+    uint entries = counts.x + counts.y;
     Uvec3Array sums = Uvec3Array(bakeTable.sums);
     uint firstNode = groupBrick() * kBrickNodes + thread;
     bool isThere = thread == gl_LocalInvocationIndex;
@@ -50,45 +66,24 @@ void main() {
     }
     for (uint first = 0u; first < entries; first += gl_SubgroupSize) {
         uint count = min(gl_SubgroupSize, entries - first);
-        uint mine = firstEntry + first + min(gl_SubgroupInvocationID, count - 1u);
+        uint mine = entryAt(first + min(gl_SubgroupInvocationID, count - 1u), counts);
         FarWindow read = farWindow(mine, origin);
         uint light = FarEntryArray(bakeTable.entries).at[mine].light;
         vec3 readEmission = Vec3Array(bakeTable.emission).at[light] * perUnit;
         vec3 readBaked = Vec3Array(bakeTable.baked).at[light] * perUnit;
         for (uint e = 0u; e < count; ++e) {
             FarWindow window = windowOfLane(read, e);
-            Hidden hidden = hiddenFromColumn(firstEntry + first + e, window, column, origin);
+            uint entry = subgroupBroadcast(mine, e);
+            Hidden hidden = hiddenFromColumn(entry, window, column, origin);
             if (hidesAllNodes(hidden)) {
                 continue;
             }
             vec3 emission = subgroupBroadcast(readEmission, e);
             vec3 baked = subgroupBroadcast(readBaked, e);
-            if (window.faceCount == kCluster) {
-                QuickColumn quick = quickColumn(window, column, origin, field);
-                vec2 place = 0.5 * column.foot.xy / column.halfSide + 0.5;
-                vec2 seen = seenFromCorners(window.corners, place);
-                [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-                    float share = mix(seen.x, seen.y, float(i) / float(kBrickSteps));
-                    sum[i] += inUnits(share * quickFluence(quick, i), emission, baked);
-                }
-                continue;
-            }
-            float seen[kColumnNodes];
-            if (window.faceCount == kMesh) {
-                MeshSight sight = meshSight(firstEntry + first + e, mesh);
-                if (subgroupAll(isDark(sight))) {
-                    continue;
-                }
-                [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-                    seen[i] = meshShare(sight, mesh, i);
-                }
-            } else {
-                [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-                    seen[i] = seenShare(hidden, i);
-                }
-            }
+            float seen[kColumnNodes] =
+                seenShares(window, hidden, meshSight(entry, mesh), mesh, across);
             if (isQuick(window, column)) {
-                QuickColumn quick = quickColumn(window, column, origin, field);
+                QuickColumn quick = quickColumn(window, column, field);
                 [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
                     sum[i] += inUnits(seen[i] * quickFluence(quick, i), emission, baked);
                 }

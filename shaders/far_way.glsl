@@ -12,9 +12,13 @@
 
 NIGHTCITY_ARRAY(MediaArray, FarMedium)
 
-// Not by a face on which `to` lies.
-bool isHiddenByAny(vec3 from, vec3 to, vec3 origin) {
-    Between between = betweenBoxAndBox(origin + from, vec3(0.0), to - from, vec3(0.0));
+// Long ways are looked at near their ends first: a city mostly hides things there, and the boxes
+// of what is farther along are then never asked about.
+const float kNearEnd = 24.0;  // m
+
+// Whether a face that a part of the way meets hides one end of it from the other.
+bool isHiddenWithin(vec3 begin, vec3 end, vec3 from, vec3 to, vec3 origin) {
+    Between between = betweenBoxAndBox(origin + begin, vec3(0.0), end - begin, vec3(0.0));
     uint walk = 0u;
     for (uint index = nextOccluder(walk, between); index != kNone;
          index = nextOccluder(walk, between)) {
@@ -25,6 +29,19 @@ bool isHiddenByAny(vec3 from, vec3 to, vec3 origin) {
         }
     }
     return false;
+}
+
+// Not by a face on which `to` lies.
+bool isHiddenByAny(vec3 from, vec3 to, vec3 origin) {
+    vec3 way = to - from;
+    float length2 = dot(way, way);
+    if (length2 <= 9.0 * kNearEnd * kNearEnd) {
+        return isHiddenWithin(from, to, from, to, origin);
+    }
+    vec3 atEnds = kNearEnd * inversesqrt(length2) * way;
+    return isHiddenWithin(to - atEnds, to, from, to, origin) ||
+           isHiddenWithin(from, from + atEnds, from, to, origin) ||
+           isHiddenWithin(from + atEnds, to - atEnds, from, to, origin);
 }
 
 // Of the straight way, through all media on it.

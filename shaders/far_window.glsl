@@ -5,6 +5,8 @@
 #ifndef NIGHTCITY_SHADERS_FAR_WINDOW_GLSL
 #define NIGHTCITY_SHADERS_FAR_WINDOW_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "far_way.glsl"
 #include "transport/near_far_split.h"
 #include "transport/pane_solid_angle.h"
@@ -25,7 +27,7 @@ struct FarWindow {
     bool isSphere;
     uint faceCount;     // as FarEntry has it
     float extinction;   // and this
-    uvec3 lowWays, highWays;  // and these
+    uint ways[3u * kWayWords];  // and these
     uint corners;       // of a cluster: what the corners of the brick see
 };
 
@@ -52,9 +54,8 @@ FarWindow farWindow(uint index, vec3 origin) {
     found.extinction = entries.at[index].extinction;
     found.corners = entries.at[index].face[0];
     if (found.extinction < 0.0) {
-        for (uint i = 0u; i < 3u; ++i) {
-            found.lowWays[i] = entries.at[index].ways[2u * i];
-            found.highWays[i] = entries.at[index].ways[2u * i + 1u];
+        [[unroll]] for (uint i = 0u; i < 3u * kWayWords; ++i) {
+            found.ways[i] = entries.at[index].ways[i];
         }
     }
     if (light.second != 0u) {

@@ -3,6 +3,7 @@
 #include "passes/far_field_grid.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -23,12 +24,18 @@ static_assert(sizeof(FarMedium) == 32);
 static_assert(sizeof(FarBrick) == 24);
 static_assert(sizeof(FarFieldTable) == 5 * 8 + 36);
 static_assert(sizeof(FarLight) == 56);
-static_assert(sizeof(FarEntry) == 36 + 4 * kFarFaces);
-static_assert(sizeof(FarBakeTable) == 12 * 8 + 28);
+static_assert(sizeof(FarEntry) == 12 + 4 * (3 * kWayWords + kFarFaces));
+static_assert(sizeof(FarBakeTable) == 12 * 8 + 32);
 
+constexpr std::uint32_t kFirstBatch = 8;   // bricks
+constexpr double kBatchSeconds = 0.2;      // that a batch should take the device
+constexpr std::uint32_t kBatchGrowth = 4;  // at most, from one to the next
 constexpr std::uint32_t kBatchBricks = 512;
+// Of all that a bake does, when the sides and when the sums are done.
+constexpr double kSidesShare = 0.05;
+constexpr double kSumsShare = 0.97;
 constexpr std::uint32_t kFirstCapacity = 512;  // entries a brick
-constexpr std::uint64_t kEntryBytes = 256u << 20;  // of a batch, most
+constexpr std::uint64_t kEntryBytes = 64u << 20;  // of a batch, most
 constexpr float kLargestHalf = 65504;
 
 float skyHeight(const FlatScene& scene) {
@@ -54,7 +61,7 @@ uvec2 FarFieldGrid::allocate(const char* name, std::uint64_t bytes) {
 }
 
 void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& settings,
-                            VkDeviceAddress sceneTable) {
+                                VkDeviceAddress sceneTable, const BakeProgress& progress) {
     hasSums_ = false;
     passTimes_.clear();
     arrays_.clear();
@@ -74,11 +81,14 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
         media, {nodes, settings_.eyes, settings.mostBricks, settings.memoryBytes});
     lights_ = buildFarLights(scene, media, settings.emitter);
     bake_.skyHeight = skyHeight(scene);
+    for (const FarMedium& medium : media) {
+        bake_.thickest = std::max(bake_.thickest, medium.extinction);
+    }
     bake_.spread = settings.spread;
     uploadLayout(media);
     uploadLights();
     writeTables();
-    findSides(sceneTable);
+    findSides(sceneTable, progress);
 }
 
 void FarFieldGrid::makePipelines(const FarFieldSettings& settings) {
@@ -150,7 +160,8 @@ void FarFieldGrid::makeEntryBuffers(std::uint32_t capacity) {
     const auto bricks = static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(kEntryBytes / each, 1, kBatchBricks));
     entries_ = gpu::Buffer(device_, "far entries", each * bricks, gpu::MemoryKind::device);
-    entryCounts_ = gpu::ReadableBuffer(device_, "far entry counts", std::uint64_t{bricks} * 4);
+    entryCounts_ = gpu::ReadableBuffer(device_, "far entry counts",
+                                       std::uint64_t{bricks} * sizeof(uvec2));
     bake_.entries = addressWords(entries_.address());
     bake_.entryCounts = addressWords(entryCounts_.buffer().address());
     bake_.entryCapacity = capacity;
@@ -178,17 +189,11 @@ PushConstants FarFieldGrid::pushOf(VkDeviceAddress sceneTable, Batch batch) cons
 }
 
 void FarFieldGrid::dispatch(const char* name, const gpu::ComputePipeline& pipeline,
-                        PushConstants push) {
-    const std::uint32_t end = push.firstPixel + push.pixelCount;
-    const std::uint32_t most = std::min(device_.limits().workGroupCount, 65535u);
-    while (push.firstPixel < end) {
-        const std::uint32_t count = std::min(end - push.firstPixel, most);
-        addPassTime(passTimes_, name, commands_.run(name, [&](VkCommandBuffer commands) {
-            pipeline.dispatch(commands, &push, count);
-            gpu::computeBarrier(commands);
-        }));
-        push.firstPixel += count;
-    }
+                            const PushConstants& push) {
+    addPassTime(passTimes_, name, commands_.run(name, [&](VkCommandBuffer commands) {
+        pipeline.dispatch(commands, &push, push.pixelCount);
+        gpu::computeBarrier(commands);
+    }));
 }
 
 std::uint64_t FarFieldGrid::bytes() const {
@@ -204,13 +209,35 @@ std::uint64_t FarFieldGrid::bytes() const {
     return bytes;
 }
 
-void FarFieldGrid::findSides(VkDeviceAddress sceneTable) {
-    dispatch("far sides", sides_,
-             pushOf(sceneTable, {0, static_cast<std::uint32_t>(layout_.bricks.size())}));
+template <typename Visit>
+void FarFieldGrid::forBatches(const BakeProgress& progress, double from, double to,
+                              Visit&& visit) {
+    using Clock = std::chrono::steady_clock;
+    const auto bricks = static_cast<std::uint32_t>(layout_.bricks.size());
+    std::uint32_t most = kFirstBatch;
+    for (std::uint32_t first = 0; first < bricks;) {
+        const Clock::time_point start = Clock::now();
+        const std::uint32_t done = visit(Batch{first, std::min(bricks - first, most)});
+        const std::chrono::duration<double> spent = Clock::now() - start;
+        first += done;
+        const double next = done * kBatchSeconds / std::max(spent.count(), 1e-6);
+        most = static_cast<std::uint32_t>(
+            std::clamp(next, 1.0, double(std::min(most * kBatchGrowth, kBatchBricks))));
+        if (progress) {
+            progress(from + (to - from) * first / bricks);
+        }
+    }
+}
+
+void FarFieldGrid::findSides(VkDeviceAddress sceneTable, const BakeProgress& progress) {
+    forBatches(progress, 0, kSidesShare, [&](Batch batch) {
+        dispatch("far sides", sides_, pushOf(sceneTable, batch));
+        return batch.count;
+    });
 }
 
 void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
-                               VkDeviceAddress sceneTable) {
+                                   VkDeviceAddress sceneTable, const BakeProgress& progress) {
     const std::vector<vec3> emission = emissionOf(lights_, scene, windowOn);
     if (hasSums_) {
         passTimes_.clear();
@@ -232,31 +259,33 @@ void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::
     bake_.update = hasSums_ ? 1 : 0;
     hasSums_ = false;  // until all bricks have the new state
     writeTables();
-    bakeBricks(sceneTable);
+    forBatches(progress, kSidesShare, kSumsShare,
+               [&](Batch batch) { return bakeBatch(sceneTable, batch); });
     if (bake_.update == 0) {
         chooseNodeUnit();
     }
-    finish(sceneTable);
+    forBatches(progress, kSumsShare, 1, [&](Batch batch) {
+        dispatch("far finish", finish_, pushOf(sceneTable, batch));
+        return batch.count;
+    });
     baked_ = emission;
     hasSums_ = true;
 }
 
-void FarFieldGrid::bakeBricks(VkDeviceAddress sceneTable) {
-    const auto bricks = static_cast<std::uint32_t>(layout_.bricks.size());
-    for (std::uint32_t first = 0; first < bricks;) {
-        const auto room = static_cast<std::uint32_t>(entryCounts_.bytes() / 4);
-        const Batch batch{first, std::min(bricks - first, room)};
-        const PushConstants push = pushOf(sceneTable, batch);
-        const std::uint32_t most = findEntries(push);
-        if (most > bake_.entryCapacity) {
-            makeEntryBuffers(most + most / 4);
-            writeTables();
-            continue;
-        }
-        dispatch("far mesh", mesh_, push);
-        dispatch("far sum", sum_, push);
-        first += batch.count;
+// Returns how many bricks of the batch there was room for: 0 where their entries need more.
+std::uint32_t FarFieldGrid::bakeBatch(VkDeviceAddress sceneTable, Batch batch) {
+    const auto room = static_cast<std::uint32_t>(entryCounts_.bytes() / sizeof(uvec2));
+    batch.count = std::min(batch.count, room);
+    const PushConstants push = pushOf(sceneTable, batch);
+    const std::uint32_t most = findEntries(push);
+    if (most > bake_.entryCapacity) {
+        makeEntryBuffers(most + most / 4);
+        writeTables();
+        return 0;
     }
+    dispatch("far mesh", mesh_, push);
+    dispatch("far sum", sum_, push);
+    return batch.count;
 }
 
 // Returns the most that a brick has.
@@ -269,8 +298,12 @@ std::uint32_t FarFieldGrid::findEntries(const PushConstants& push) {
         entryCounts_.recordReadback(commands);
         units_.recordReadback(commands);
     }));
-    const auto* counts = static_cast<const std::uint32_t*>(entryCounts_.data());
-    return *std::max_element(counts, counts + push.pixelCount);
+    const auto* counts = static_cast<const uvec2*>(entryCounts_.data());
+    std::uint32_t most = 0;
+    for (std::uint32_t i = 0; i < push.pixelCount; ++i) {
+        most = std::max(most, counts[i].x + counts[i].y);
+    }
+    return most;
 }
 
 // So that no sum passes what a half holds, whichever windows are on.
@@ -282,11 +315,6 @@ void FarFieldGrid::chooseNodeUnit() {
     const float largest = *std::max_element(units, units + layout_.bricks.size());
     contents_.nodeUnit = std::ldexp(largest, 31) / kLargestHalf;
     writeTables();
-}
-
-void FarFieldGrid::finish(VkDeviceAddress sceneTable) {
-    dispatch("far finish", finish_,
-             pushOf(sceneTable, {0, static_cast<std::uint32_t>(layout_.bricks.size())}));
 }
 
 }  // namespace nightcity

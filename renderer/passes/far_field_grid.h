@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +39,9 @@ struct FarFieldSettings {
     bool operator==(const FarFieldSettings&) const = default;
 };
 
+// Called between dispatches with what is done of a bake, from 0 to 1; what it throws ends the bake.
+using BakeProgress = std::function<void(double)>;
+
 class FarFieldGrid {
 public:
     FarFieldGrid(gpu::Device& device, gpu::Commands& commands)
@@ -46,11 +50,11 @@ public:
     // Lays the field out; the next bake is a full one. `sceneTable` must hold windows, ground
     // and occluders. Throws DeviceError where the nodes pass the memory that they may take.
     void syncGeometry(const FlatScene& scene, const FarFieldSettings& settings,
-                      VkDeviceAddress sceneTable);
+                      VkDeviceAddress sceneTable, const BakeProgress& progress);
     // Bakes the windows that are on, one byte a window; only those that changed where an earlier
     // state was baked: the nodes are then those of a full bake, to the bit.
     void syncWindowState(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
-                         VkDeviceAddress sceneTable);
+                         VkDeviceAddress sceneTable, const BakeProgress& progress);
 
     // Of the FarFieldTable; 0 before the first syncGeometry.
     VkDeviceAddress tableAddress() const { return table_ ? table_.address() : 0; }
@@ -74,13 +78,17 @@ private:
     void makePipelines(const FarFieldSettings& settings);
     void uploadLayout(std::span<const FarMedium> media);
     void uploadLights();
-    void findSides(VkDeviceAddress sceneTable);
+    // Visits all bricks in batches that take the device a moment each: so long no process waits
+    // that is told to stop, and no watchdog bites. A visit returns the bricks that it did.
+    template <typename Visit>
+    void forBatches(const BakeProgress& progress, double from, double to, Visit&& visit);
+    void findSides(VkDeviceAddress sceneTable, const BakeProgress& progress);
     void makeEntryBuffers(std::uint32_t capacity);
-    void bakeBricks(VkDeviceAddress sceneTable);
+    std::uint32_t bakeBatch(VkDeviceAddress sceneTable, Batch batch);
     std::uint32_t findEntries(const PushConstants& push);
-    void finish(VkDeviceAddress sceneTable);
     void chooseNodeUnit();
-    void dispatch(const char* name, const gpu::ComputePipeline& pipeline, PushConstants push);
+    void dispatch(const char* name, const gpu::ComputePipeline& pipeline,
+                  const PushConstants& push);
     void writeTables();
     PushConstants pushOf(VkDeviceAddress sceneTable, Batch batch) const;
 

@@ -257,16 +257,16 @@ void GpuScene::syncWindowState(const FlatScene& scene, int frame,
 }
 
 void GpuScene::syncFarField(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
-                            const FarFieldSettings& settings) {
+                            const FarFieldSettings& settings, const BakeProgress& progress) {
     if (farFieldSettings_ != settings) {
         farFieldSettings_.reset();
-        farField_.syncGeometry(scene, settings, tableAddress());
+        farField_.syncGeometry(scene, settings, tableAddress(), progress);
         farFieldSettings_ = settings;
         contents_.farField = addressWords(farField_.tableAddress());
         uploadNearField(scene);
         writeTable();
     }
-    farField_.syncWindowState(scene, windowOn, tableAddress());
+    farField_.syncWindowState(scene, windowOn, tableAddress(), progress);
 }
 
 void GpuScene::uploadState(gpu::Buffer& buffer, const char* name, const void* data,

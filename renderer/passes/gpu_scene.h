@@ -41,7 +41,7 @@ public:
     // windows lie: laid out anew where geometry or settings changed, else only updated. To be
     // called after syncWindowState.
     void syncFarField(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
-                      const FarFieldSettings& settings);
+                      const FarFieldSettings& settings, const BakeProgress& progress = {});
 
     VkAccelerationStructureKHR structure() const { return topLevel_.get(); }
     VkDeviceAddress tableAddress() const { return table_.address(); }

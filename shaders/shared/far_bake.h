@@ -23,6 +23,8 @@ NIGHTCITY_CONST uint kFarFaces = 23u;       // of one entry
 NIGHTCITY_CONST uint kMesh = 0xffu;         // sight is that from a mesh of every other node
 NIGHTCITY_CONST uint kMeshSide = kBrickSteps / 2u + 1u;  // of its points along each axis
 NIGHTCITY_CONST uint kCluster = 0x100u;     // sight is that from the brick's corners
+NIGHTCITY_CONST uint kWaySide = 3u;         // of the places where the haze on the way is known
+NIGHTCITY_CONST uint kWayWords = 5u;        // of a layer of them
 // m: a node so near to the plane of a face lies on it, and is seen from both of its sides: most
 // walls lie on planes of nodes, and the air before them reads their nodes.
 NIGHTCITY_CONST float kOnFace = 2e-3f;
@@ -46,8 +48,9 @@ struct FarEntry {
     uint light;
     float extinction;  // 1/m, mean of all ways to the brick; negative: it differs
     uint faceCount;    // or kMesh, or kCluster
-    uint ways[6];      // where it differs, of a brick above scale 0: 1/m, the means of the ways to
-                       // its four upright edges, as halves: at the foot, half way up, at the top
+    // Where it differs: 1/m, the means of the ways to 3 x 3 x 3 places of the brick, as halves,
+    // those of a layer behind those of the layer below, x fastest, each layer filled to 10.
+    uint ways[3u * kWayWords];
     uint face[kFarFaces];  // of a cluster: 4 bits a corner of the brick, quarters that are seen;
                            // of a mesh: a word a layer, a bit a point that sees the light
 };
@@ -63,13 +66,15 @@ struct FarBakeTable {
     uvec2 sides;        // uint, kBrickSideWords a brick: bit n is 1 where node n is in a solid
     uvec2 sums;         // uvec3 a node, in the unit of its brick
     uvec2 units;        // float a brick, W m^-2: a power of two
-    uvec2 entries;      // FarEntry, entryCapacity a brick of the batch
-    uvec2 entryCounts;  // uint a brick of the batch: may be more than there is room for
+    uvec2 entries;      // FarEntry, entryCapacity a brick of the batch: first those from the
+                        // front, last, from the end, those of kCluster
+    uvec2 entryCounts;  // uvec2 a brick of the batch: of both; may be more than there is room for
     uint lightCount;
     uint rootCount;
     uint entryCapacity;
     uint update;        // 1: only windows that changed; the units stay
     float skyHeight;    // m, above all that is opaque
+    float thickest;     // 1/m, the largest extinction of all media
     float boundUnit;    // W m^-2, of the sums of bounds
     float spread;       // a cluster's half size is at most this share of its distance
 };
