@@ -28,8 +28,8 @@ struct FarStep {
     float spacing;  // m
     float spread;   // FarFieldSettings
 };
-constexpr FarStep kFarSteps[] = {{0.03, 1.0f, 0.1f}, {0.01, 0.5f, 0.06f}};
-constexpr FarStep kWidestStep = {INFINITY, 1.43f, 0.12f};  // for larger tolerances
+constexpr FarStep kFarSteps[] = {{0.03, 1.0f, 0.15f}, {0.01, 0.5f, 0.06f}};
+constexpr FarStep kWidestStep = {INFINITY, 1.43f, 0.2f};  // for larger tolerances
 // Near windows cost as the square of the near radius; below so many spacings the far part has
 // peaks that the nodes miss.
 constexpr float kRadiusSpacings = 6;
@@ -44,8 +44,17 @@ FarStep farStep(double tolerance) {
     return kWidestStep;
 }
 
-FarFieldSettings farFieldSettings(const RenderSettings& settings, const CameraTrack& camera) {
+// Bricks of a large city are lit by thousands of windows each: fewer keep its bake to about a minute.
+constexpr std::size_t kLargeCity = 50'000;  // windows
+constexpr std::uint64_t kLargeCityBricks = 2000;
+
+FarFieldSettings farFieldSettings(const RenderSettings& settings, const FlatScene& scene,
+                                  const std::string& cameraName) {
+    const CameraTrack& camera = scene.camera(cameraName);
     FarFieldSettings far;
+    if (scene.windows.size() > kLargeCity) {
+        far.mostBricks = kLargeCityBricks;
+    }
     for (const CameraFrame& frame : camera.frames) {
         far.eyes.push_back(frame.position);
     }
@@ -91,7 +100,7 @@ public:
         scene_.syncWindowState(scene, frame, settings);
         if (settings.method == Method::field) {
             scene_.syncFarField(scene, scene.windowsOn(frame),
-                                farFieldSettings(settings, scene.camera(camera)), progress);
+                                farFieldSettings(settings, scene, camera), progress);
         }
         flatScene_ = &scene;
         renderer_.sceneChanged();

@@ -14,7 +14,7 @@
 layout(local_size_x = kGroupSize) in;
 
 const float kFullSpread = 20.0;     // near radii, up to which the spread is that of the table
-const float kLargestSpread = 0.25;
+const float kLargestSpread = 0.4;
 const float kCornerShare = 0.4;
 const float kBlurredReach = 2.67;
 const uint kBlurredScale = 1u;      // of bricks whose nodes are too far apart for single windows
@@ -71,7 +71,7 @@ float largestFluence(FarLight light, vec3 way, vec3 brickHalf, float nearRadius)
 // Of the distance, the share that a light may be half as large as to be one point. What is far
 // away is mostly hidden, and what a large brick says is less exact anyway.
 float spreadAt(float gap, FarBrick brick, float nearRadius) {
-    float growth = max(1.0, sqrt(gap / (kFullSpread * nearRadius))) * float(1u << 2u * min(brick.scale, 4u));
+    float growth = max(1.0, gap / (kFullSpread * nearRadius)) * float(1u << 2u * brick.scale);
     return min(bakeTable.spread * growth, max(bakeTable.spread, kLargestSpread));
 }
 
