@@ -12,6 +12,8 @@ void Frame::resize(std::uint32_t w, std::uint32_t h) {
     glow.assign(count, glm::vec3(0));
     surface.assign(count, glm::vec3(0));
     glowError.assign(count, glm::vec3(0));
+    error.assign(count, 0.0f);
+    cost.assign(count, 0.0f);
     transmittance.assign(count, 1.0f);
     depth.assign(count, kSkyDepth);
     normal.assign(count, glm::vec3(0));

@@ -25,6 +25,8 @@ struct Frame {
     std::vector<glm::vec3> glow;
     std::vector<glm::vec3> surface;     // surfaces as seen through the haze: radiance x transmittance
     std::vector<glm::vec3> glowError;   // standard error of glow (Monte Carlo); 0 for other methods
+    std::vector<float> error;           // estimated relative error of glow (Method::field); 0 for others
+    std::vector<float> cost;            // evaluations along the pixel's own rays (Method::field)
     std::vector<float> transmittance;   // of all media before the surface (or of all, to the sky)
     // Of the sample nearest the pixel's centre, never averaged:
     std::vector<float> depth;           // m along the camera's axis, kSkyDepth where there is nothing

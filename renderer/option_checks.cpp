@@ -82,6 +82,11 @@ void checkMarchedModel(const Model& model) {
     same(model.surfaces, paper.surfaces, "--surfaces", "dim");
 }
 
+bool isAovNamed(const Options& options, std::string_view name) {
+    return options.aovs && std::find(options.aovs->begin(), options.aovs->end(), name) !=
+                               options.aovs->end();
+}
+
 // What only the path tracer knows, and what it does not.
 void checkPaths(const Options& options, const Given& given) {
     const RenderSettings& settings = options.settings;
@@ -91,9 +96,8 @@ void checkPaths(const Options& options, const Given& given) {
         }
         require(settings.model.scattering == Scattering::single,
                 "--scattering multiple is for --method path; the others know single");
-        const bool error = options.aovs && std::find(options.aovs->begin(), options.aovs->end(),
-                                                     kErrorAov) != options.aovs->end();
-        require(!error, "--aovs glowError is for --method path; the others have no noise");
+        require(!isAovNamed(options, kErrorAov),
+                "--aovs glowError is for --method path; the others have no noise");
         return;
     }
     for (const char* name :
@@ -153,6 +157,11 @@ void checkMethod(const Options& options, const Given& given) {
     const RenderSettings& settings = options.settings;
     checkReach(options, given);
     checkPaths(options, given);
+    for (const std::string_view name : kLedgerAovNames) {
+        require(settings.method == Method::field || !isAovNamed(options, name),
+                "--aovs " + std::string(name) + " is for --method field; --method path has " +
+                    std::string(kErrorAov));
+    }
     require(!settings.writeOnly || (!settings.media && settings.method == Method::march),
             "--write-only is for --media off and --method march: it is the least that the surface "
             "frame can cost");

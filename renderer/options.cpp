@@ -116,7 +116,8 @@ void addWhat(CLI::App& app, Options& options) {
         ->type_name("N|FILE");
     app.add_option("--aovs", options.aovs,
                    "channels, separated by commas: beauty, glow, surface, transmittance, depth, "
-                   "normal, mediaId, materialId, of --method path glowError (default: the stage's, else all)")
+                   "normal, mediaId, materialId, of --method path glowError, of --method field error "
+                   "and cost (default: the stage's, else all but the last three)")
         ->delimiter(',')
         ->type_name("NAMES");
 }

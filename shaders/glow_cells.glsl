@@ -12,6 +12,7 @@
 #include "primitives.glsl"
 
 NIGHTCITY_ARRAY(GlowSampleArray, GlowSample)
+NIGHTCITY_ARRAY(GlowLedgerArray, GlowLedger)
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer GlowReference {
     GlowTable table;
@@ -106,6 +107,10 @@ bool isKeptCell(ivec2 cell, GlowTable table) {
 
 GlowSample sampleAt(ivec2 at, GlowTable table) {
     return GlowSampleArray(table.samples).at[pixelIndex(at)];
+}
+
+GlowLedger ledgerAt(ivec2 at, GlowTable table) {
+    return GlowLedgerArray(table.ledger).at[pixelIndex(at)];
 }
 
 vec4 packSample(GlowSample found) {

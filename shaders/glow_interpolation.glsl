@@ -102,8 +102,15 @@ float largest(vec4 value) {
     return max(value.r, max(value.g, value.b));
 }
 
+// Of a difference between two ways to interpolate, as a share of the least of four corners: that
+// of glow, or of depth, which has a kink where the haze has an edge and may hide it in the glow.
+float shareOf(vec4 apart, vec4 one, vec4 other, vec4 third, vec4 fourth) {
+    vec4 low = min(min(one, other), min(third, fourth));
+    return max(largest(apart) / max(largest(low), 1e-30), apart.w / max(low.w, 1e-30));
+}
+
 // What the cubic and the straight line differ by halfway between two corners of the cell, the most
-// of its four sides.
+// of its four sides, as shareOf has it.
 float bendOfPatch(GlowPatch points) {
     vec4 most = vec4(0.0);
     for (int k = 1; k <= 2; ++k) {
@@ -113,10 +120,11 @@ float bendOfPatch(GlowPatch points) {
         most = max(most, abs(points.at[4 + k] + points.at[8 + k] - points.at[k] -
                              points.at[12 + k]));
     }
-    return largest(most) / 16.0;
+    return shareOf(most / 16.0, points.at[5], points.at[6], points.at[9], points.at[10]);
 }
 
-// What the parabola and the straight line differ by halfway along a quarter, the most of all.
+// What the parabola and the straight line differ by halfway along a quarter, the most of all,
+// as shareOf has it.
 float bendOfQuarters(GlowQuarters points) {
     vec4 most = vec4(0.0);
     for (int k = 0; k < 3; ++k) {
@@ -124,7 +132,7 @@ float bendOfQuarters(GlowQuarters points) {
                              points.at[3 * k + 2]));
         most = max(most, abs(points.at[k] - 2.0 * points.at[k + 3] + points.at[k + 6]));
     }
-    return largest(most) / 8.0;
+    return shareOf(most / 8.0, points.at[0], points.at[2], points.at[6], points.at[8]);
 }
 
 // Between the corners of the quarter whose first is point `low`: the largest less the smallest.

@@ -21,10 +21,6 @@ const float kMostBendByEdge = 0.25;
 const float kMostQuarterBend = 1.5;
 const float kMostRise = 2.0;
 
-float smallest(vec4 one, vec4 other, vec4 third, vec4 fourth) {
-    return min(min(largest(one), largest(other)), min(largest(third), largest(fourth)));
-}
-
 // Whether the corners of a patch see one face.
 bool seesOneFace(ivec2 cell) {
     ivec2 first = (cell - 1) * int(kGlowCell);
@@ -47,8 +43,7 @@ bool isTooBent(ivec2 cell, GlowTable table) {
         return true;
     }
     float most = seesOneFace(cell) ? kMostBend : kMostBendByEdge;
-    float least = smallest(points.at[5], points.at[6], points.at[9], points.at[10]);
-    return bendOfPatch(points) > most * table.tolerance * least;
+    return bendOfPatch(points) > most * table.tolerance;
 }
 
 bool areQuartersTooBent(ivec2 cell, GlowTable table) {
@@ -58,8 +53,7 @@ bool areQuartersTooBent(ivec2 cell, GlowTable table) {
             return true;
         }
     }
-    float least = smallest(points.at[0], points.at[2], points.at[6], points.at[8]);
-    return bendOfQuarters(points) > kMostQuarterBend * table.tolerance * least;
+    return bendOfQuarters(points) > kMostQuarterBend * table.tolerance;
 }
 
 // The pixels of the quarters of a mixed cell between whose corners glow rises too much.

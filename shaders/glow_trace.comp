@@ -21,7 +21,11 @@ void main() {
         Ray ray = cameraRay(pixelOf(push.firstPixel + index), push.sampleIndex);
         float scale = length(ray.direction);
         float depth = SurfaceRecordArray(frameTable.surfaces).at[index].depth;
-        GlowSampleArray(table.samples).at[index] =
-            glowAlongRay(Ray(ray.origin, ray.direction / scale), depth * scale, tile, table);
+        GlowLedger ledger;
+        GlowSampleArray(table.samples).at[index] = glowAlongRay(
+            Ray(ray.origin, ray.direction / scale), depth * scale, tile, table, ledger);
+        if (kLedger) {
+            GlowLedgerArray(table.ledger).at[index] = ledger;
+        }
     }
 }

@@ -56,6 +56,28 @@ void storeSums(uint index, vec4 surface, vec3 glow, float transmittance) {
     }
 }
 
+// Of the same sample, after addSample. `error`: as GlowLedger has it.
+void addLedger(uint index, vec3 glow, float error, float cost) {
+    if (isKept(kAovError)) {
+        float sum = error / float(frameTable.sampleCount);
+        if (push.sampleIndex > 0u) {
+            sum += FloatArray(frameTable.error).at[index];
+        }
+        if (push.sampleIndex + 1u == frameTable.sampleCount) {
+            vec3 mean = push.sampleIndex > 0u ? Vec3Array(frameTable.glow).at[index] : glow;
+            float brightest = max(mean.r, max(mean.g, mean.b));
+            sum = brightest > 0.0 ? sum / brightest : 0.0;
+        }
+        FloatArray(frameTable.error).at[index] = sum;
+    }
+    if (isKept(kAovCost)) {
+        if (push.sampleIndex > 0u) {
+            cost += FloatArray(frameTable.cost).at[index];
+        }
+        FloatArray(frameTable.cost).at[index] = cost;
+    }
+}
+
 // Sample push.sampleIndex of the pixel at `index` in the band. `firstMediaId`: -1 for none.
 void addSample(uint index, SurfaceRecord record, vec3 glow, float transmittance,
                int firstMediaId) {

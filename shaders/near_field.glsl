@@ -11,6 +11,7 @@
 layout(constant_id = NIGHTCITY_CONSTANT_SPHERES) const bool kSpheres = false;
 layout(constant_id = NIGHTCITY_CONSTANT_CUT_ALL) const bool kCutAll = true;
 layout(constant_id = NIGHTCITY_CONSTANT_THIN_HAZE) const bool kThinHaze = false;
+layout(constant_id = NIGHTCITY_CONSTANT_LEDGER) const bool kLedger = false;
 
 // The ray about the pane, its parameter still that of `ray`.
 PaneFrame nearFrame(NearPane pane, Ray ray) {
@@ -60,10 +61,15 @@ uint nextPaneBy(inout PaneList list, NearPiece piece, bool isCloseBy) {
     return found;
 }
 
+// Integral of near fluence times exp(-extinction t) over a piece.
+struct NearSum {
+    vec3 light;   // W m^-1
+    float nodes;  // where kLedger: how many were evaluated
+};
+
 // Of the panes whose integrals are taken in pieces, or of the others: each kind in a loop of its
 // own, for the pieces are few and long.
-vec3 nearPanes(PaneList list, NearPiece piece, bool inPieces) {
-    vec3 sum = vec3(0.0);
+void addPanes(PaneList list, NearPiece piece, bool inPieces, inout NearSum sum) {
     for (uint index = nextPaneBy(list, piece, inPieces); index != kNone;
          index = nextPaneBy(list, piece, inPieces)) {
         NearPane pane = NearPaneArray(nearTable.panes).at[index];
@@ -76,14 +82,15 @@ vec3 nearPanes(PaneList list, NearPiece piece, bool inPieces) {
                                                  piece.tolerance)
                                    : nearBeside(pass, frame, piece.radius, piece.extinction,
                                                 piece.tolerance, kThinHaze);
-            sum += pane.radiance * light;
+            sum.light += pane.radiance * light;
+            if (kLedger) {
+                sum.nodes += nodesOfPass(pass, inPieces, piece.tolerance);
+            }
         }
     }
-    return sum;
 }
 
-vec3 nearSpheres(PaneList list, NearPiece piece) {
-    vec3 sum = vec3(0.0);
+void addSpheres(PaneList list, NearPiece piece, inout NearSum sum) {
     for (uint index = nextPaneBy(list, piece, false); index != kNone;
          index = nextPaneBy(list, piece, false)) {
         NearPane pane = NearPaneArray(nearTable.panes).at[index];
@@ -92,21 +99,22 @@ vec3 nearSpheres(PaneList list, NearPiece piece) {
         vec2 chord = ballChord(from + along * piece.ray.direction, along, piece.radius, 0.0,
                                piece.span);
         if (chord.x < chord.y && (pane.flags & kWindowSphere) != 0u) {
-            sum += pane.radiance * nearSphere(from, piece.ray.direction, pane.halfU, piece.radius,
-                                              chord, 0.0, piece.extinction);
+            sum.light += pane.radiance * nearSphere(from, piece.ray.direction, pane.halfU,
+                                                    piece.radius, chord, 0.0, piece.extinction);
+            sum.nodes += float(kSphereNodes);
         }
     }
-    return sum;
 }
 
-// Integral of the near fluence times exp(-extinction t) over the piece, W m^-1, of all panes
-// around a ray of the tile.
-vec3 nearGlow(NearPiece piece, uint tile, GlowTable table) {
+// Of all panes around a ray of the tile.
+NearSum nearGlow(NearPiece piece, uint tile, GlowTable table) {
     GlowTile found = GlowTileArray(table.tiles).at[tile];
     PaneList list = PaneList(table.tilePanes, found.firstPane, found.firstPane + found.paneCount);
-    vec3 sum = nearPanes(list, piece, false) + nearPanes(list, piece, true);
+    NearSum sum = NearSum(vec3(0.0), 0.0);
+    addPanes(list, piece, false, sum);
+    addPanes(list, piece, true, sum);
     if (kSpheres) {
-        sum += nearSpheres(list, piece);
+        addSpheres(list, piece, sum);
     }
     return sum;
 }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 
 #include "aovs.h"
@@ -15,9 +15,9 @@ namespace nightcity {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kAovs{  // the bits of aovs.h, from the lowest
+constexpr std::array<std::string_view, 11> kAovs{  // the bits of aovs.h, from the lowest
     "beauty", "glow", "surface", "transmittance", "depth", "normal", "mediaId", "materialId",
-    kErrorAov};
+    kErrorAov, kLedgerAovNames[0], kLedgerAovNames[1]};
 static_assert(kAllAovs == (1u << kAovs.size()) - 1);
 
 template <auto Member, int Component>
@@ -51,6 +51,8 @@ constexpr std::array kChannels{
     Channel{kErrorAov, "glowError.R", component<&Frame::glowError, 0>},
     Channel{kErrorAov, "glowError.G", component<&Frame::glowError, 1>},
     Channel{kErrorAov, "glowError.B", component<&Frame::glowError, 2>},
+    Channel{kLedgerAovNames[0], "error.Y", scalar<&Frame::error>},
+    Channel{kLedgerAovNames[1], "cost.Y", scalar<&Frame::cost>},
 };
 
 void checkNames(std::span<const std::string> aovs) {
@@ -69,15 +71,16 @@ void checkNames(std::span<const std::string> aovs) {
 }  // namespace
 
 std::vector<std::string> commonAovs() {
-    return {kAovs.begin(), std::prev(kAovs.end())};
+    return {kAovs.begin(), kAovs.begin() + std::popcount(kCommonAovs)};
 }
 
 std::vector<Channel> selectChannels(std::span<const std::string> aovs) {
     checkNames(aovs);
     std::vector<Channel> selected;
     for (const Channel& channel : kChannels) {
-        const bool named = std::find(aovs.begin(), aovs.end(), channel.aov) != aovs.end();
-        if (named || (aovs.empty() && channel.aov != kErrorAov)) {
+        const std::vector<std::string> common = commonAovs();
+        const std::span<const std::string> wanted = aovs.empty() ? common : aovs;
+        if (std::find(wanted.begin(), wanted.end(), channel.aov) != wanted.end()) {
             selected.push_back(channel);
         }
     }
@@ -87,7 +90,7 @@ std::vector<Channel> selectChannels(std::span<const std::string> aovs) {
 std::uint32_t aovBits(std::span<const std::string> aovs) {
     checkNames(aovs);
     if (aovs.empty()) {
-        return kAllAovs & ~kAovGlowError;
+        return kCommonAovs;
     }
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < kAovs.size(); ++i) {

@@ -4,6 +4,7 @@
 // The channels of a frame by the names that files give them (design section 7).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -22,6 +23,8 @@ struct Channel {
 
 // Standard errors of the glow, which Monte Carlo methods have.
 inline constexpr std::string_view kErrorAov = "glowError";
+// What Method::field knows of its own error, and what a pixel took.
+inline constexpr std::array<std::string_view, 2> kLedgerAovNames{"error", "cost"};
 
 // The AOVs that every method has.
 std::vector<std::string> commonAovs();

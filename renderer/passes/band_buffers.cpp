@@ -29,7 +29,10 @@ BandBuffers::ImageOffsets BandBuffers::imageOffsets(std::uint64_t rays, Method m
     at.mediaId = at.normal + rays * sizeof(vec3);
     at.materialId = at.mediaId + rays * sizeof(float);
     at.glowError = at.materialId + rays * sizeof(float);
-    at.end = at.glowError + (method == Method::path ? rays * sizeof(vec3) : 0);
+    at.error = at.glowError + (method == Method::path ? rays * sizeof(vec3) : 0);
+    const std::uint64_t ledger = method == Method::field ? rays * sizeof(float) : 0;
+    at.cost = at.error + ledger;
+    at.end = at.cost + ledger;
     return at;
 }
 
@@ -88,6 +91,8 @@ void BandBuffers::prepare(gpu::Commands& commands, FrameTable table,
     table.mediaId = addressWords(images + at.mediaId);
     table.materialId = addressWords(images + at.materialId);
     table.glowError = addressWords(images + at.glowError);
+    table.error = addressWords(images + at.error);
+    table.cost = addressWords(images + at.cost);
     table.bandRays = rays_;
     commands.upload(table_, &table, sizeof(FrameTable));
 }
@@ -110,6 +115,10 @@ void BandBuffers::copyTo(Frame& frame, std::uint64_t first, std::uint32_t skippe
     copy(kAovMaterialId, frame.materialId, at.materialId);
     if (method_ == Method::path) {
         copy(kAovGlowError, frame.glowError, at.glowError);
+    }
+    if (method_ == Method::field) {
+        copy(kAovError, frame.error, at.error);
+        copy(kAovCost, frame.cost, at.cost);
     }
 }
 

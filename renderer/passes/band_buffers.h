@@ -41,7 +41,7 @@ private:
     // Byte offset of each image in images_.
     struct ImageOffsets {
         std::uint64_t beauty, glow, surface, transmittance, depth, normal, mediaId, materialId,
-            glowError, end;
+            glowError, error, cost, end;
     };
     static ImageOffsets imageOffsets(std::uint64_t rays, Method method);
 

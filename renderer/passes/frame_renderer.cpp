@@ -38,6 +38,9 @@ std::uint32_t writtenAovs(const RenderProduct& product, const RenderSettings& se
     if (settings.pixelSamples > 1 && (aovs & kAovBeauty) != 0) {
         aovs |= kAovSurface | kAovGlow;
     }
+    if (settings.pixelSamples > 1 && (aovs & kAovError) != 0) {
+        aovs |= kAovGlow;
+    }
     if (settings.method == Method::path) {
         return aovs | kAovGlow;
     }

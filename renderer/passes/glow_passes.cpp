@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "aovs.h"
 #include "glow_composite_spirv.h"
 #include "glow_plan_spirv.h"
 #include "glow_refine_spirv.h"
@@ -20,7 +21,8 @@ static_assert(sizeof(NearPane) == 64);
 static_assert(sizeof(NearTable) == 2 * 8 + 4);
 static_assert(sizeof(GlowSample) == 16);
 static_assert(sizeof(GlowTile) == 12);
-static_assert(sizeof(GlowTable) == 7 * 8 + 44);
+static_assert(sizeof(GlowLedger) == 8);
+static_assert(sizeof(GlowTable) == 8 * 8 + 44);
 
 std::uint32_t cellsFor(std::uint32_t pixels) {
     return (pixels + kGlowCell - 1) / kGlowCell;
@@ -60,10 +62,12 @@ GlowPasses::GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32
                        NearKinds near)
     : device_(device),
       commands_(commands),
+      ledgerBytes_((aovs & kLedgerAovs) != 0 ? sizeof(GlowLedger) : 0),
       plan_(makePipeline(device, "glow plan", kGlowPlanSpirv, {})),
       tiles_(makePipeline(device, "glow tiles", kGlowTilesSpirv, {})),
       trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {},
-                          {near.spheres ? 1u : 0u, near.cutAll ? 1u : 0u, near.thinHaze ? 1u : 0u})),
+                          {near.spheres ? 1u : 0u, near.cutAll ? 1u : 0u, near.thinHaze ? 1u : 0u,
+                           ledgerBytes_ != 0 ? 1u : 0u})),
       refine_(makePipeline(device, "glow refine", kGlowRefineSpirv, {})),
       composite_(makePipeline(device, "glow composite", kGlowCompositeSpirv, {}, {0, aovs})),
       paneCounter_(device, "glow pane counter", 4),
@@ -93,6 +97,9 @@ void GlowPasses::reserve(std::uint32_t width, std::uint32_t rows) {
         return addressWords(buffer.address());
     };
     contents_.samples = make(samples_, "glow samples", std::uint64_t{pixels} * sizeof(GlowSample));
+    if (ledgerBytes_ != 0) {
+        contents_.ledger = make(ledger_, "glow ledger", std::uint64_t{pixels} * ledgerBytes_);
+    }
     // A cell has at least one pixel.
     contents_.cells = make(cells_, "glow cells", std::uint64_t{pixels} * 4);
     contents_.traced = make(traced_, "glow cells traced", std::uint64_t{pixels} * 4);

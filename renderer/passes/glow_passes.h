@@ -62,8 +62,9 @@ private:
 
     gpu::Device& device_;
     gpu::Commands& commands_;
+    std::uint64_t ledgerBytes_;  // a pixel; 0: none is kept
     gpu::ComputePipeline plan_, tiles_, trace_, refine_, composite_;
-    gpu::Buffer samples_, cells_, traced_, tileTable_, tileRays_, tilePanes_;
+    gpu::Buffer samples_, ledger_, cells_, traced_, tileTable_, tileRays_, tilePanes_;
     gpu::ReadableBuffer paneCounter_;
     gpu::Buffer table_;
     std::uint32_t pixels_ = 0, tileCount_ = 0;  // that there is room for

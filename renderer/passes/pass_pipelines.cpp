@@ -23,7 +23,7 @@ static_assert(sizeof(BoxNode) == 32);
 static_assert(sizeof(OccluderFace) == 20);
 static_assert(sizeof(HazeNode) == 12);
 static_assert(sizeof(NearLights) == 64);
-static_assert(sizeof(FrameTable) == 21 * 8 + 20 + sizeof(CameraFrame) + 12 + 8 + 24);
+static_assert(sizeof(FrameTable) == 23 * 8 + 20 + sizeof(CameraFrame) + 12 + 8 + 24);
 static_assert(sizeof(PushConstants) == 32);  // devices give at least 128
 static_assert(sizeof(SurfaceRecord) == 32);
 static_assert(sizeof(RayProgress) == 32);

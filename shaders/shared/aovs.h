@@ -18,8 +18,13 @@ NIGHTCITY_CONST uint kAovNormal = 32u;
 NIGHTCITY_CONST uint kAovMediaId = 64u;
 NIGHTCITY_CONST uint kAovMaterialId = 128u;
 NIGHTCITY_CONST uint kAovGlowError = 256u;  // Monte Carlo only
-NIGHTCITY_CONST uint kAllAovs = 511u;
-NIGHTCITY_CONST uint kHazeAovs = kAovGlow | kAovTransmittance | kAovMediaId;  // constant without
+NIGHTCITY_CONST uint kAovError = 512u;      // of --method field, as kAovCost
+NIGHTCITY_CONST uint kAovCost = 1024u;
+NIGHTCITY_CONST uint kAllAovs = 2047u;
+NIGHTCITY_CONST uint kCommonAovs = 255u;    // that every method has
+NIGHTCITY_CONST uint kLedgerAovs = kAovError | kAovCost;
+NIGHTCITY_CONST uint kHazeAovs =
+    kAovGlow | kAovTransmittance | kAovMediaId | kLedgerAovs;  // constant without
 
 NIGHTCITY_END
 

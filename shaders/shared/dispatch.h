@@ -177,6 +177,8 @@ struct FrameTable {
     float tolerance;    // of Method::gauss, relative
     uint lightCap;      // lit windows of a media box that count, at most
     uvec2 glowTable;    // GlowTable of glow.h; 0 for methods without
+    uvec2 error;        // float, one a pixel of the band; of Method::field, as cost
+    uvec2 cost;         // float
     // Of the path tracer; 0 for other methods.
     uvec2 pathSums;     // PathSums, one a ray of the band
     uvec2 nearLights;   // NearLights, one a ray of the band

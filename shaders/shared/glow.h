@@ -17,6 +17,7 @@ NIGHTCITY_BEGIN
 #define NIGHTCITY_CONSTANT_SPHERES 0    // 1: some windows are spheres
 #define NIGHTCITY_CONSTANT_CUT_ALL 1    // as isNearCut of transport/near_window.h has it
 #define NIGHTCITY_CONSTANT_THIN_HAZE 2  // 1: as nearPiece of transport/near_window.h has it
+#define NIGHTCITY_CONSTANT_LEDGER 3     // 1: a GlowLedger a ray is kept
 
 NIGHTCITY_CONST uint kGlowCell = 4u;    // pixels a side of a cell; bit 4 row + column of a mask
 NIGHTCITY_CONST uint kGlowRounds = 3u;  // of choosing rays and integrating along them
@@ -49,6 +50,12 @@ struct GlowSample {
     float depth;    // optical, of all haze before the surface
 };
 
+// What is known of a sample besides.
+struct GlowLedger {
+    float error;  // W m^-2 sr^-1: how far the glow may be off, an estimate
+    float cost;   // samples of the far field, and nodes of the integrals over near panes
+};
+
 // Of kTileCells x kTileCells cells: its rays of this round, and the lit panes whose near parts
 // they may meet: tilePanes[firstPane] and so on.
 struct GlowTile {
@@ -60,6 +67,7 @@ struct GlowTile {
 // Of a band: whole rows of the frame, the first a multiple of kGlowCell.
 struct GlowTable {
     uvec2 samples;      // GlowSample, one a pixel of the band
+    uvec2 ledger;       // GlowLedger, one a pixel of the band; 0 where none is kept
     uvec2 cells;        // uint a cell, row by row: low half which of its pixels are integrated
                         // along their rays, high half which of those are its own
     uvec2 traced;       // uint a cell: which of its pixels were integrated in earlier rounds

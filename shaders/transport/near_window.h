@@ -21,8 +21,12 @@
 
 NIGHTCITY_BEGIN
 
+// Of a piece of a ray past a sphere of light: 1e-3 of all that the share takes from the integral.
+NIGHTCITY_CONST int kSphereNodes = 8;
 // Sides from the pane within which a ray is cut at the pane's edges.
 NIGHTCITY_CONST float kNearCutSides = 0.3f;
+// Nodes of each piece between such cuts that are within 1 %.
+NIGHTCITY_CONST float kNodesOfPiece = 5.0f;
 // Sine of the angle to the pane from which on that is not needed for 1 %: eight nodes are off
 // by 2 % then at p99 of the rays so close, and by 40 % along the pane.
 NIGHTCITY_CONST float kNearGrazing = 0.4f;
@@ -141,6 +145,12 @@ NIGHTCITY_FUNCTION bool isNearCut(NearPass pass, PaneFrame pane, bool always) {
     return pass.sides <= kNearCutSides && (always || abs(pane.direction.z) < kNearGrazing);
 }
 
+// How many nodes its integral takes, in pieces at most.
+NIGHTCITY_FUNCTION float nodesOfPass(NearPass pass, bool inPieces, float tolerance) {
+    return inPieces ? 5.0f * float(nodesFor(kNodesOfPiece, tolerance))
+                    : float(nodesFor(nearNodes(pass.sides), tolerance));
+}
+
 // The integral in one piece. extinction in 1/m, 0 to 10; tolerance as in
 // nodesFor; thinHaze as in nearPiece.
 NIGHTCITY_FUNCTION float nearBeside(NearPass pass, PaneFrame pane, float radius, float extinction,
@@ -152,17 +162,16 @@ NIGHTCITY_FUNCTION float nearBeside(NearPass pass, PaneFrame pane, float radius,
 // The same in pieces.
 NIGHTCITY_FUNCTION float nearAtEdges(NearPass pass, PaneFrame pane, float radius, float extinction,
                                      float tolerance) {
-    return nearPieces(pass.interval, pane, radius, extinction, nodesFor(5.0f, tolerance));
+    return nearPieces(pass.interval, pane, radius, extinction, nodesFor(kNodesOfPiece, tolerance));
 }
 
 // Int nearShare(d^2 / R^2) exp(-tau (t + d)) / d^2 dt (1/m) of a sphere of light, about whose
 // centre the interval is, outside of it: its near fluence for an intensity of 1 W/sr.
 NIGHTCITY_FUNCTION float nearSpherePiece(AirlightInterval i, float radius, float extinction) {
-    const int kNodes = 8;  // 1e-3 of all that the share takes from the integral
     float arc = airlightArc(i);
     float sum = 0.0f;
-    for (int index = 0; index < kNodes; ++index) {
-        vec2 node = gaussNode(kNodes, index);
+    for (int index = 0; index < kSphereNodes; ++index) {
+        vec2 node = gaussNode(kSphereNodes, index);
         float step = airlightStepOfArc(i, arc, node.x);
         float d = airlightDistance(i, step);
         sum += node.y * nearShare(d * d / (radius * radius)) *

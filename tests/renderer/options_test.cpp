@@ -94,6 +94,8 @@ TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--orders", "2-");
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--g", "0.5");
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--aovs", "glowError");
+    EXPECT_REFUSED("--method field", "s", "-o", "a.exr", "--aovs", "error");
+    EXPECT_REFUSED("--method field", "s", "-o", "a.exr", "--method", "path", "--aovs", "cost");
     EXPECT_REFUSED("--method gauss", "s", "-o", "a.exr", "--lights", "all");
     EXPECT_REFUSED("--method gauss", "s", "-o", "a.exr", "--visibility", "full");
     for (const char* option : {"--subdivisions", "--light-cap"}) {
