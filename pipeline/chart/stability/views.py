@@ -28,7 +28,6 @@ FloatArray = NDArray[np.float64]
 _TAU = 0.03125
 _CAUSE = "no visibility; equal steps"
 _UNEVEN = 1.0137  # of lengths: float32 rounds the places of a street in different directions
-_ROUNDED = Failure("places rounded to 4 mm by float32", 1e-3, 0.05)
 
 
 def street(shift: FloatArray | float = 0.0, power: float = 50.0, scale: float = 1.0) -> TinyScene:
@@ -74,10 +73,11 @@ def _moved_shot(points: FloatArray) -> Shot:
 
 
 def _moved(lab: Lab, method: Method, points: FloatArray) -> Errors:
-    truth = lab.judge(lab.shot(_moved_shot, np.zeros(1))).by_point(1).value
+    """Against the judge of the same rounded places: what is lost besides by being far away."""
     errors = []
     for distance in points:
         shot = lab.shot(_moved_shot, np.array([distance]))
+        truth = lab.judge(shot).by_point(1).value
         errors.append(relative_errors(lab.render(shot, method).by_point(1), truth))
     return joined(errors)
 
@@ -166,14 +166,12 @@ SWEEPS = (
             (100000,),
             scale="symlog",
         ),
-        truth="judge at the origin",
+        truth="judge",
         bar=1e-3,
         measure=_moved,
-        note="Float32 holds places to 4 mm at 100 km: the exporter keeps coordinates small.",
-        failures={
-            "march": Failure(_CAUSE, 0.2, 20),
-            **dict.fromkeys(("gauss", "field", "reference"), _ROUNDED),
-        },
+        note="Float32 holds places to 4 mm at 100 km, alike for the judge: that alone changes this "
+        "glow by 0.12 %. The exporter keeps coordinates small.",
+        failures={"march": Failure(_CAUSE, 0.2, 20)},
     ),
     Sweep(
         name="eye-height",
