@@ -81,8 +81,9 @@ void FarFieldOnDevice::sync(const FlatScene& scene, const FarFieldSettings& sett
     setWindows(scene, windowOn);
 }
 
-void FarFieldOnDevice::setWindows(const FlatScene& scene, std::span<const std::uint8_t> windowOn) {
-    scene_.syncFarField(scene, windowOn, settings_);
+void FarFieldOnDevice::setWindows(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
+                                  const BakeProgress& progress) {
+    scene_.syncFarField(scene, windowOn, settings_, progress);
     instance_.throwIfMessages();
 }
 

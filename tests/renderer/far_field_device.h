@@ -27,7 +27,8 @@ public:
     void sync(const FlatScene& scene, const FarFieldSettings& settings,
               std::span<const std::uint8_t> windowOn);
     // Bakes another state of the windows, one byte each.
-    void setWindows(const FlatScene& scene, std::span<const std::uint8_t> windowOn);
+    void setWindows(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
+                    const BakeProgress& progress = {});
     // W m^-2; -1 where there is no haze near.
     std::vector<glm::vec3> fluence(std::span<const glm::vec3> places);
     // The same, and an estimate of its error.

@@ -237,6 +237,24 @@ TEST_F(FarFieldStates, AToggledStateEqualsAFreshBakeToTheBit) {
 
 // Two windows of equal power, one on and one off, change places: the sums of the tree above
 // them stay the same.
+TEST_F(FarFieldStates, ABakeThatIsEndedLeavesNothingBehind) {
+    std::vector<std::uint8_t> some(scene_.windows.size(), 1);
+    some[5] = 0;
+    const auto fresh = bakedAfresh(some);
+    struct Ended {};
+    some[40] = 0;
+    const auto end = [](double) { throw Ended{}; };
+    EXPECT_THROW(device().setWindows(scene_, some, end), Ended);
+    some[40] = 1;
+    double done = 0;
+    device().setWindows(scene_, some, [&](double share) {
+        EXPECT_GT(share, done);
+        done = share;
+    });
+    EXPECT_EQ(done, 1);
+    EXPECT_EQ(device().nodes(), fresh);
+}
+
 TEST_F(FarFieldStates, TheSameWithBricksOfSeveralScales) {
     settings_ = ofScales();
     std::vector<std::uint8_t> some(scene_.windows.size(), 1), most = some;
