@@ -68,21 +68,23 @@ void addFar(FarFieldTable field, FieldRay ray, float begin, float end, inout Haz
     }
 }
 
-// The next run from `at` on, before `end`; `at` goes on to where it ends. False: there is none.
-bool nextRun(FarFieldTable field, FieldRay ray, float end, inout float at, out HazeRun run) {
-    MediumPiece piece = nextMedium(field, ray, at, end);
+// The next run of a walk, which goes on to where it ends. False: there is none.
+bool nextRun(FarFieldTable field, FieldRay ray, inout HazeWalk walk, out HazeRun run) {
+    MediumPiece piece = nextMedium(walk);
     run = HazeRun(piece.begin, piece.begin, piece.extinction, piece.scattering, vec3(0.0),
                   0.0, 0.0);
-    if (piece.begin >= end) {
+    if (piece.begin >= walk.end) {
         return false;
     }
-    while (piece.begin <= run.end + kMediaGap && piece.begin < end &&
+    HazeWalk ended = walk;
+    while (piece.begin <= run.end + kMediaGap && piece.begin < walk.end &&
            piece.extinction == run.extinction && piece.scattering == run.scattering) {
         addFar(field, ray, piece.begin, piece.end, run);
         run.end = piece.end;
-        piece = nextMedium(field, ray, run.end, end);
+        ended = walk;
+        piece = nextMedium(walk);
     }
-    at = run.end;
+    walk = ended;
     return true;
 }
 
@@ -112,8 +114,10 @@ GlowSample glowAlongRay(Ray ray, float end, uint tile, GlowTable table, out Glow
     float at, last;
     boxInterval(ray.origin, ray.direction, inField.inverse, field.origin, high, end, at, last);
     float radius = nearTable.radius;
+    HazeWalk walk = hazeWalk(ray, last);
+    walk.at = at;
     HazeRun run;
-    while (at < last && nextRun(field, inField, last, at, run)) {
+    while (nextRun(field, inField, walk, run)) {
         Ray onward = Ray(ray.origin + run.begin * ray.direction, ray.direction);
         NearPiece piece = NearPiece(onward, run.end - run.begin, run.extinction, radius,
                                     table.tolerance);

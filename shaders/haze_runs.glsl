@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A ray through the lattice of the far field (far_field.glsl), brick by brick, and through the
-// media that the bricks list.
+// haze (haze_walk.glsl), whose tree stays small where a brick far away holds hundreds of media.
 #ifndef NIGHTCITY_SHADERS_HAZE_RUNS_GLSL
 #define NIGHTCITY_SHADERS_HAZE_RUNS_GLSL
 
 #include "box_interval.glsl"
 #include "camera_ray.glsl"
 #include "far_field.glsl"
+#include "haze_walk.glsl"
 
 // A ray with a unit direction in the lattice of the far field.
 struct FieldRay {
@@ -66,37 +67,14 @@ BrickStep brickAfter(FarFieldTable field, FieldRay ray, float at) {
     return brick;
 }
 
-// The first medium of a brick's list that the ray is in from `from` on, up to `to`.
-MediumPiece mediumFrom(FarFieldTable field, uint index, FieldRay ray, float from, float to) {
-    MediumPiece piece = MediumPiece(to, to, 0.0, 0.0);
-    FarBrick brick = FarBrickArray(field.bricks).at[index];
-    for (uint i = 0u; i < brick.mediumCount; ++i) {
-        uint listed = UintArray(field.mediumList).at[brick.firstMedium + i];
-        FarMedium medium = FarMediumArray(field.media).at[listed];
-        float entry, exit;
-        boxInterval(ray.origin, ray.direction, ray.inverse, medium.lo, medium.hi, to, entry, exit);
-        entry = max(entry, from);
-        if (exit - entry > 1e-5 * (1.0 + exit) && entry < piece.begin) {
-            piece = MediumPiece(entry, exit, medium.extinction, medium.scattering);
-        }
+// The next haze of a walk: of a large medium a part. Begins at the walk's end where there is none.
+MediumPiece nextMedium(inout HazeWalk walk) {
+    HazePart part = nextHaze(walk);
+    if (part.medium == kNone) {
+        return MediumPiece(walk.end, walk.end, 0.0, 0.0);
     }
-    return piece;
-}
-
-// The next piece from `at` on, before `end`: all of the ray's way through one medium.
-MediumPiece nextMedium(FarFieldTable field, FieldRay ray, float at, float end) {
-    while (at < end) {
-        BrickStep brick = brickAfter(field, ray, at);
-        if (brick.index != kNone) {
-            // What begins after the brick may not be the first there.
-            MediumPiece piece = mediumFrom(field, brick.index, ray, at, end);
-            if (piece.begin < min(brick.end, end)) {
-                return piece;
-            }
-        }
-        at = brick.end;
-    }
-    return MediumPiece(end, end, 0.0, 0.0);
+    FarMedium haze = HazeArray(sceneTable.haze).at[part.medium];
+    return MediumPiece(part.entry, part.exit, haze.extinction, haze.scattering);
 }
 
 #endif
