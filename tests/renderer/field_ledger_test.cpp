@@ -86,7 +86,13 @@ TEST(FieldLedgers, AreOfWhatWasDone) {
     std::size_t interpolated = 0;
     for (std::size_t i = 0; i < all.glow.size(); ++i) {
         ASSERT_EQ(all.glow[i].y > 0, all.error[i] > 0);
-        ASSERT_EQ(all.glow[i].y > 0, all.cost[i] > 0);
+        // A ray onto a roof may meet a few micrometres of haze, whose samples lie in the building.
+        if (all.glow[i].y > 0 || all.transmittance[i] < 1 - 1e-5f) {
+            ASSERT_GT(all.cost[i], 0.0f);
+        }
+        if (all.glow[i].y == 0) {
+            ASSERT_GT(all.transmittance[i], 1 - 1e-5f);
+        }
         interpolated += sparse.cost[i] == 0 && all.cost[i] > 0 ? 1 : 0;
         ASSERT_TRUE(sparse.cost[i] == 0 || sparse.cost[i] == all.cost[i]);
     }
