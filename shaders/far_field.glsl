@@ -9,7 +9,7 @@
 //     uint index = brickAt(field, cell);
 //     FarBrick brick = FarBrickArray(field.bricks).at[index];
 //     vec3 place = (x - brickCorner(field, brick)) / brickSide(field, brick);
-//     vec3 fluence = farFluence(field, index, place);
+//     vec3 fluence = farSample(field, index, place).rgb;
 #ifndef NIGHTCITY_SHADERS_FAR_FIELD_GLSL
 #define NIGHTCITY_SHADERS_FAR_FIELD_GLSL
 
@@ -82,11 +82,6 @@ vec4 farSample(FarFieldTable field, uint brick, vec3 place) {
     vec4 high = mix(mix(farNode(field, node), farNode(field, node + 1u), t.x),
                     mix(farNode(field, node + side), farNode(field, node + side + 1u), t.x), t.y);
     return mix(low, high, t.z) * field.nodeUnit;
-}
-
-// Times scattering / (4 pi) it is the source of in-scattered radiance.
-vec3 farFluence(FarFieldTable field, uint brick, vec3 place) {
-    return farSample(field, brick, place).rgb;
 }
 
 #endif

@@ -45,10 +45,6 @@ vec4 cubicWeights(float f) {
     return vec4(-f * b * c / 6.0, 0.5 * a * b * c, -0.5 * a * f * c, a * f * b / 6.0);
 }
 
-vec4 straightWeights(float f) {
-    return vec4(0.0, 1.0 - f, f, 0.0);
-}
-
 vec4 alongRow(GlowPatch points, int row, vec4 weights) {
     return weights.x * points.at[4 * row] + weights.y * points.at[4 * row + 1] +
            weights.z * points.at[4 * row + 2] + weights.w * points.at[4 * row + 3];

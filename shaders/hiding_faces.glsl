@@ -24,7 +24,7 @@ struct Hiders {
 };
 
 // Whether a face may hide any of the window from the part: some of it lies in the wedge, and it is
-// not the wall that the window lies on (isOwnWall, with which it shares the corners read).
+// not the wall that the window lies on. Each corner is read once for all of that.
 bool mayHide(uint index, Hiders hiders) {
     OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
     Between between = hiders.between;
@@ -40,9 +40,8 @@ bool mayHide(uint index, Hiders hiders) {
         height = dot(hiders.normal, corner);
         before = vec2(min(before.x, height), max(before.y, height));
     }
-    bool isOwnWall = before.x >= -kPaneOnWall && before.y <= kPaneOnWall && before.y > 0.0;
     return across.x <= between.thickness && across.y >= -between.thickness &&
-           all(greaterThanEqual(inward, -between.depths)) && !isOwnWall &&
+           all(greaterThanEqual(inward, -between.depths)) && !isOwnWall(before) &&
            mayCrossPlane(between, face);
 }
 

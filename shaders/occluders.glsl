@@ -116,17 +116,21 @@ bool mayCrossPlane(Between between, OccluderFace face) {
 }
 
 // Whether a face is the wall that a window lies on: it reaches in front of the window's plane,
-// and nowhere further than kPaneOnWall from it. `normal`: 0 for a sphere, which has none.
+// and nowhere further than kPaneOnWall from it. `heights`: of its corners above that plane, m, the
+// least and the most.
+bool isOwnWall(vec2 heights) {
+    return heights.x >= -kPaneOnWall && heights.y <= kPaneOnWall && heights.y > 0.0;
+}
+
+// `normal`: of the window, 0 for a sphere, which has no wall.
 bool isOwnWall(OccluderFace face, vec3 centre, vec3 normal) {
-    float most = 0.0;
-    bool isNear = true;
-    for (uint k = 0u; k < face.cornerCount && isNear; ++k) {
+    vec2 heights = vec2(1e30, -1e30);
+    for (uint k = 0u; k < face.cornerCount; ++k) {
         vec3 corner = Vec3Array(sceneTable.occluderCorners).at[face.firstCorner + k];
         float height = dot(normal, corner - centre);
-        most = max(most, height);
-        isNear = abs(height) <= kPaneOnWall;
+        heights = vec2(min(heights.x, height), max(heights.y, height));
     }
-    return isNear && most > 0.0;
+    return isOwnWall(heights);
 }
 
 // The next box of a tree that may lie between, or kNone. `walk` is 0 at first.

@@ -76,10 +76,10 @@ std::vector<std::string> commonAovs() {
 
 std::vector<Channel> selectChannels(std::span<const std::string> aovs) {
     checkNames(aovs);
+    const std::vector<std::string> common = commonAovs();
+    const std::span<const std::string> wanted = aovs.empty() ? common : aovs;
     std::vector<Channel> selected;
     for (const Channel& channel : kChannels) {
-        const std::vector<std::string> common = commonAovs();
-        const std::span<const std::string> wanted = aovs.empty() ? common : aovs;
         if (std::find(wanted.begin(), wanted.end(), channel.aov) != wanted.end()) {
             selected.push_back(channel);
         }
