@@ -9,6 +9,7 @@ import time
 
 _LINE_SECONDS = 10.0  # between plain lines: farm managers look for one a minute
 _TERMINAL_SECONDS = 0.1
+_FORETELLS = 0.01  # share of the work; less says nothing about the rest
 
 
 class Progress:
@@ -43,6 +44,8 @@ class Progress:
         self._shown = now
         share = self._done / self._total
         left = (now - self._start) * (1 - share) / max(share, 1e-9)
-        text = f"{self._label}: {100 * share:.0f} %, about {left:.0f} s left"
+        text = f"{self._label}: {100 * share:.0f} %"
+        if share >= _FORETELLS:
+            text += f", about {left:.0f} s left"
         sys.stderr.write(f"\r\x1b[K{text}" if self._terminal else f"{text}\n")
         sys.stderr.flush()

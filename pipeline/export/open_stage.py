@@ -12,11 +12,12 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, Sdf, Tf, Usd, UsdGeom
+from pxr import Gf, Tf, Usd, UsdGeom
 
 from nightcity import schemas
 from nightcity.errors import SceneError, UsageError
 from nightcity.export.notes import Notes
+from nightcity.payloads import loaded, open_outside
 
 _SHOWN_ERRORS = 5
 
@@ -93,9 +94,7 @@ def open_stage(path: Path, frames: tuple[int, int] | None = None) -> Source:
     if not path.is_file():
         raise SceneError(f"{path}: there is no such stage file")
     try:
-        stage = Usd.Stage.Open(str(path), Usd.Stage.LoadNone)
-        districts = _districts(stage)
-        stage.LoadAndUnload(_outside(stage, districts), [])
+        stage, districts = open_outside(path)
     except Tf.ErrorException as error:
         raise SceneError(f"{path}: USD cannot open it: {_first_line(error)}") from error
     refuse_broken(stage)
@@ -106,7 +105,7 @@ def open_stage(path: Path, frames: tuple[int, int] | None = None) -> Source:
         _frames_per_second(stage, path),
         _root(stage, path, notes),
         knows_frames=frames is not None or stage.HasAuthoredTimeCodeRange(),
-        districts=tuple(districts),
+        districts=districts,
         notes=notes,
     )
 
@@ -117,12 +116,9 @@ def loaded_district(source: Source, district: str) -> Iterator[Source]:
 
     Raises SceneError where the district refers to what is not there.
     """
-    source.stage.Load(district)
-    try:
+    with loaded(source.stage, district):
         refuse_broken(source.stage)
         yield replace(source, notes=Notes())
-    finally:
-        source.stage.Unload(district)
 
 
 def refuse_broken(stage: Usd.Stage) -> None:
@@ -133,26 +129,6 @@ def refuse_broken(stage: Usd.Stage) -> None:
         shown = "; ".join(str(error).strip().replace("\n", " ") for error in errors[:_SHOWN_ERRORS])
         more = f"; and {len(errors) - _SHOWN_ERRORS} more" if len(errors) > _SHOWN_ERRORS else ""
         raise SceneError(f"{path}: parts of the stage are missing or broken: {shown}{more}")
-
-
-def _districts(stage: Usd.Stage) -> list[str]:
-    """Paths of the payloads that can be read one at a time, if there are several."""
-    found = [
-        str(prim.GetPath())
-        for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.PrimIsActive & Usd.PrimIsDefined)
-        if not prim.IsLoaded() and "NightcityDistrictAPI" in prim.GetAppliedSchemas()
-    ]
-    return found if len(found) > 1 else []
-
-
-def _outside(stage: Usd.Stage, districts: list[str]) -> list[Sdf.Path]:
-    """The payloads that belong to no district."""
-    inside = set(map(Sdf.Path, districts))
-    return [
-        path
-        for path in stage.FindLoadable()
-        if not any(prefix in inside for prefix in path.GetPrefixes())
-    ]
 
 
 def _first_line(error: Tf.ErrorException) -> str:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Nightcity authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of windows: lengths of arrays, ids, and what viewers show of the lit ones."""
+"""Checks of single instancers: lengths of arrays, ids, and what viewers show of the lit ones."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 from pxr import Usd, UsdGeom, UsdShade
 
 from nightcity.stage.contents import Contents
@@ -33,7 +32,7 @@ _FINITE = ("positions", "orientations", "orientationsf", "scales")
 
 
 def check_windows(contents: Contents) -> Iterator[Finding]:
-    """Each instancer on its own, then ids over all of them."""
+    """Each instancer on its own."""
     shines = _Shines(contents.stage)
     for prim in contents.windows:
         wrong = list(_check_arrays(prim))
@@ -41,12 +40,7 @@ def check_windows(contents: Contents) -> Iterator[Finding]:
         if not wrong:
             yield from _check_prototypes(prim, shines)
             yield from _check_orientations(prim)
-    yield from _check_ids(contents)
-
-
-def window_ids(prim: Usd.Prim) -> NDArray[np.int64]:
-    """The ids of an instancer, (N,) or empty."""
-    return numbers(prim, "ids", dtype=np.int64)
+        yield from _check_ids(prim)
 
 
 def _check_arrays(prim: Usd.Prim) -> Iterator[Finding]:
@@ -126,34 +120,13 @@ def _check_orientations(prim: Usd.Prim) -> Iterator[Finding]:
             )
 
 
-def _check_ids(contents: Contents) -> Iterator[Finding]:
-    """Ids are there, in range, and used once on the stage."""
-    all_ids, owners = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
-    for number, prim in enumerate(contents.windows):
-        ids = window_ids(prim)
-        if len(ids) == 0 and len(numbers(prim, "protoIndices")):
-            yield warning(
-                prim, "ids", "is empty, so no media box can list these windows; number them"
-            )
-        if len(ids) and (ids.min() < 0 or ids.max() > _LARGEST_ID):
-            yield error(prim, "ids", f"must lie in 0 to {_LARGEST_ID}")
-        all_ids.append(ids)
-        owners.append(np.full(len(ids), number))
-    ids, owner = np.concatenate(all_ids), np.concatenate(owners)
-    order = np.lexsort((owner, ids))
-    reported = set()
-    for place in np.flatnonzero(np.diff(ids[order]) == 0).tolist():
-        first, second = (int(owner[order[place + step]]) for step in (0, 1))
-        if second in reported:
-            continue
-        reported.add(second)
-        prim, other = contents.windows[second], contents.windows[first]
-        message = (
-            f"window {ids[order[place]]} is also in {other.GetPath()}; ids must be used once"
-            " on the stage, so renumber one of them"
-        )
-        # Native instances share their arrays; nothing can be renumbered there.
-        yield (warning if prim.IsInstanceProxy() else error)(prim, "ids", message)
+def _check_ids(prim: Usd.Prim) -> Iterator[Finding]:
+    """Ids are there and in range."""
+    ids = numbers(prim, "ids", dtype=np.int64)
+    if len(ids) == 0 and len(numbers(prim, "protoIndices")):
+        yield warning(prim, "ids", "is empty, so no media box can list these windows; number them")
+    if len(ids) and (ids.min() < 0 or ids.max() > _LARGEST_ID):
+        yield error(prim, "ids", f"must lie in 0 to {_LARGEST_ID}")
 
 
 class _Shines:

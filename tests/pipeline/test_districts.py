@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from export_maker import Scene
-from pxr import Sdf, Usd, UsdGeom
+from pxr import Sdf, Usd, UsdGeom, Vt
 
 from nightcity.city import districts as cutting
 from nightcity.city.generate import generate
@@ -71,6 +71,62 @@ def test_the_stage_has_payloads_that_open_alone(folder: Path) -> None:
 
 def test_districts_are_valid(folder: Path) -> None:
     assert [str(finding) for finding in validate_stage(folder / "cut.usda")] == []
+
+
+def faulty(folder: Path) -> Path:
+    """The city in districts, under a layer with faults inside, across and outside of them."""
+    layer = Sdf.Layer.CreateNew(str(folder / "faulty.usda"))
+    layer.subLayerPaths.append(str(folder / "cut.usda"))
+    stage = Usd.Stage.Open(layer)
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+    one, other = (f"/City/Districts/District_000{number}" for number in (1, 3))
+    boxes = [f"{district}/Media/Group_0000" for district in (one, other)]
+    first, second = (stage.GetPrimAtPath(path).GetChildren()[0] for path in boxes)
+    first.GetAttribute("nightcity:extinction").Set(-1.0)
+    first.GetAttribute("nightcity:windowLights").Set(Vt.IntArray([3, 99999]))
+    second.GetAttribute("nightcity:mediaId").Set(first.GetAttribute("nightcity:mediaId").Get())
+    second.GetAttribute("xformOp:translate").Set(first.GetAttribute("xformOp:translate").Get())
+    buildings = [
+        stage.GetPrimAtPath(f"{district}/Buildings/Group_0000").GetChildren()[0]
+        for district in (one, other)
+    ]
+    windows = [building.GetChild("Windows") for building in buildings]
+    sources = first.GetRelationship("nightcity:windowLightSources")
+    sources.SetTargets([windows[1].GetPath()])
+    second.GetRelationship("nightcity:windowLightSources").SetTargets(["/City/Nothing"])
+    windows[1].GetAttribute("ids").Set(windows[0].GetAttribute("ids").Get())
+    number = "nightcity:buildingId"
+    buildings[1].GetAttribute(number).Set(buildings[0].GetAttribute(number).Get())
+    spec = Sdf.CreatePrimInLayer(layer, windows[0].GetPath())
+    Sdf.AttributeSpec(spec, "nightcity:windowSize", Sdf.ValueTypeNames.String)
+    buildings[0].GetReferences().AddReference("./gone.usda")
+    stage.DefinePrim("/City/Ground2", "Mesh").ApplyAPI("NightcityGroundAPI")
+    stage.GetPrimAtPath("/City/Cameras").SetActive(False)
+    Sdf.CreatePrimInLayer(layer, other).SetInfo(
+        "apiSchemas", Sdf.TokenListOp.Create(prependedItems=["NightcityMediumAPI"])
+    )
+    layer.Save()
+    return folder / "faulty.usda"
+
+
+def test_districts_have_the_findings_of_the_whole(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = faulty(folder)
+    streamed = validate_stage(path)
+    monkeypatch.setattr(
+        "nightcity.stage.validate.open_outside",
+        lambda path: (Usd.Stage.Open(str(path), Usd.Stage.LoadAll), ()),
+    )
+    assert [str(each) for each in streamed] == [str(each) for each in validate_stage(path)]
+    found = {each.attribute for each in streamed}
+    assert found >= {
+        "nightcity:extinction", "nightcity:windowLights", "nightcity:mediaId", "ids",
+        "nightcity:windowLightSources", "nightcity:buildingId", "nightcity:windowSize",
+        "xformOpOrder", "points", "apiSchemas", "",
+    }  # fmt: skip
+    assert any("gone.usda" in each.message for each in streamed)
 
 
 def test_the_same_city_comes_out(folder: Path) -> None:
@@ -147,3 +203,13 @@ def test_a_district_whose_file_is_gone_is_named(folder: Path, tmp_path: Path) ->
     with pytest.raises(SceneError, match=r"District_0002\.windows\.usdc"):
         export_stage(tmp_path / "copy" / "cut.usda", tmp_path / "scene")
     assert not (tmp_path / "scene").exists()
+    found = [str(each) for each in validate_stage(tmp_path / "copy" / "cut.usda")]
+    assert any(each.startswith("error") and "District_0002.windows.usdc" in each for each in found)
+
+
+def test_a_truncated_layer_of_a_district_is_found(folder: Path, tmp_path: Path) -> None:
+    shutil.copytree(folder, tmp_path / "copy")
+    layer = tmp_path / "copy" / "cut.districts" / "District_0002.windows.usdc"
+    layer.write_bytes(layer.read_bytes()[:1000])
+    found = [str(each) for each in validate_stage(tmp_path / "copy" / "cut.usda")]
+    assert any(each.startswith("error") and layer.name in each for each in found)
