@@ -123,7 +123,6 @@ void checkGauss(const Options& options, const Given& given) {
             "down to 1e-7");
 }
 
-// The field is exact single scattering; what it bakes must have all windows and all shadows.
 void checkField(const Options& options, const Given& given) {
     for (const char* name : {"--subdivisions", "--march-order", "--light-storage", "--light-cap"}) {
         require(!given(name), std::string(name) + " is not for --method field; it takes --tolerance");
@@ -132,11 +131,9 @@ void checkField(const Options& options, const Given& given) {
     const double tolerance = settings.tolerance.value_or(kFieldTolerance);
     require(tolerance >= 1e-3 && tolerance <= 0.1,
             "--tolerance must lie from 0.001 to 0.1 for --method field; --method reference goes on");
-    const Model& model = settings.model;
-    require(model.lights == Lights::all && model.visibility == Visibility::full &&
-                model.emitter == Emitter::pane && model.surfaces == Surfaces::dim,
-            "--method field knows --model single only (all lights, full visibility, panes, dim "
-            "surfaces); for any other model take --method path or reference");
+    require(settings.model.lights == Lights::all,
+            "--lights listed: --method field knows all lights only, as lists end at the borders of "
+            "media boxes and what it bakes does not; take --method gauss or march, or --lights all");
 }
 
 void checkReach(const Options& options, const Given& given) {

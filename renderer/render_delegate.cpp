@@ -98,7 +98,8 @@ public:
             scene_.syncGeometry(scene);
         }
         scene_.syncWindowState(scene, frame, settings);
-        if (settings.method == Method::field) {
+        const bool field = settings.method == Method::field && settings.media;
+        if (field) {
             scene_.syncFarField(scene, scene.windowsOn(frame),
                                 farFieldSettings(settings, scene, camera), progress);
         }
@@ -107,7 +108,7 @@ public:
         const std::chrono::duration<double, std::milli> wall =
             std::chrono::steady_clock::now() - start;
         statistics_.bakeMilliseconds = wall.count();
-        if (settings.method == Method::field) {
+        if (field) {
             statistics_.bakePasses = scene_.farField().passTimes();
             statistics_.farFieldBytes = scene_.farField().bytes();
             statistics_.farFieldBricks = scene_.farField().brickCount();

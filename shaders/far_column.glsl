@@ -19,6 +19,7 @@ const float kExactHazeSides = 3.0;  // of a brick in different hazes: Column.exa
 // apart for its borders.
 const float kSmoothDepth = 0.15;
 const float kEverywhere = 1e15;     // m; a float holds its square
+const float kOnBorder = 1e-3;       // m, of two hazes
 const uint kAllNodes = (1u << kColumnNodes) - 1u;
 
 struct Column {
@@ -28,6 +29,7 @@ struct Column {
     bool isCoarse;  // nodes are too far apart for the shape of a pane
     float exactHaze;  // m, of windows nearer than so each node asks for the haze on its way
     vec3 acrossX, acrossY;  // weights of the three places of a layer along each axis
+    float ownHaze[kColumnNodes];  // 1/m, without visibility: of the haze that each node lies in
 };
 
 // Bit i of each: whether node i does not see that point of the pane.
@@ -229,6 +231,28 @@ bool isQuick(FarWindow window, Column column) {
            (kFarEmitter != kEmitterPane || column.isCoarse || dot(gap, gap) > window.exactBelow);
 }
 
+// 1/m, of the haze at a place, or nearest to it; on a border the mean of both sides, so that what
+// interpolation makes of the step there has no bias.
+float hazeAt(vec3 place, vec3 origin, FarBrick brick, FarFieldTable field) {
+    float least = kEverywhere;
+    float sum = 0.0;
+    float count = 0.0;
+    for (uint i = 0u; i < brick.mediumCount; ++i) {
+        uint index = UintArray(field.mediumList).at[brick.firstMedium + i];
+        FarMedium medium = MediaArray(field.media).at[index];
+        vec3 away = max(max(medium.lo - origin - place, place - medium.hi + origin), vec3(0.0));
+        float distance = length(away);
+        if (distance < least - kOnBorder) {
+            least = distance;
+            sum = 0.0;
+            count = 0.0;
+        }
+        sum += distance <= least + kOnBorder ? medium.extinction : 0.0;
+        count += distance <= least + kOnBorder ? 1.0 : 0.0;
+    }
+    return sum / max(count, 1.0);
+}
+
 struct QuickColumn {
     vec3 foot, step;    // of the column in the window's frame, m
     vec2 secondOrder;   // half sides^2, m^2
@@ -287,7 +311,7 @@ QuickColumn quickColumn(FarWindow window, Column column, FarFieldTable field) {
 }
 
 // m^-2: far part of the fluence per watt at node i.
-float quickFluence(QuickColumn quick, uint i) {
+float quickFluence(QuickColumn quick, Column column, uint i) {
     vec3 point = quick.foot + float(i) * quick.step;
     float squared = max(dot(point, point), kNearestPoint * kNearestPoint);
     float inverse = 1.0 / squared;
@@ -300,7 +324,8 @@ float quickFluence(QuickColumn quick, uint i) {
         vec2 across = 5.0 * point.xy * point.xy * inverse - 1.0;
         clear *= 1.0 + 0.5 * inverse * dot(quick.secondOrder, across);
     }
-    float extinction = extinctionAt(quick.extinction, i);
+    float extinction =
+        kFarVisibility == 0u ? column.ownHaze[i] : extinctionAt(quick.extinction, i);
     return farShare(squared * quick.inverseRadius) * clear * exp(-extinction * distance);
 }
 

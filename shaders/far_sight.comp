@@ -100,8 +100,12 @@ uint howSeen(FarLight light, vec3 way, vec3 brickHalf, FarBrick brick, float nea
     return brick.scale > 0u && (isFar || isSmall) ? kSeenAsPoint : kSeenApart;
 }
 
-// 1/m; negative where it differs from way to way.
+// 1/m; negative where it differs from way to way. Without visibility it does not matter
+// (ownHaze of far_column.glsl).
 float extinctionOnTheWay(FarLight light, FarBrick brick) {
+    if (kFarVisibility == 0u) {
+        return 0.0;
+    }
     FarFieldTable field = bakedField;
     bool isSame = brick.mediumCount == 1u && light.medium != kNone &&
                   UintArray(field.mediumList).at[brick.firstMedium] == light.medium;

@@ -52,6 +52,10 @@ void main() {
     vec2 across = 0.5 * column.foot.xy / column.halfSide + 0.5;
     column.acrossX = betweenThree(across.x);
     column.acrossY = betweenThree(across.y);
+    [[unroll]] for (uint i = 0u; kFarVisibility == 0u && i < kColumnNodes; ++i) {
+        vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
+        column.ownHaze[i] = hazeAt(place, origin, brick, field);
+    }
     MeshColumn mesh = meshColumn(thread);
     float perUnit = 1.0 / FloatArray(bakeTable.units).at[groupBrick()];
     uvec2 counts = entryCounts();
@@ -85,14 +89,15 @@ void main() {
             if (isQuick(window, column)) {
                 QuickColumn quick = quickColumn(window, column, field);
                 [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-                    sum[i] += inUnits(seen[i] * quickFluence(quick, i), emission, baked);
+                    sum[i] += inUnits(seen[i] * quickFluence(quick, column, i), emission, baked);
                 }
                 continue;
             }
             [[dont_unroll]] for (uint i = 0u; isThere && i < kColumnNodes; ++i) {
                 vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
                 if (seen[i] > 0.0) {
-                    float extinction = window.extinction >= 0.0
+                    float extinction = kFarVisibility == 0u ? column.ownHaze[i]
+                                       : window.extinction >= 0.0
                                            ? window.extinction
                                            : meanExtinction(window, place, origin, field);
                     float perWatt = seen[i] * farFluencePerWatt(window, place, extinction, field);

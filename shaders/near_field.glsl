@@ -8,10 +8,15 @@
 #include "glow_tile.glsl"
 #include "transport/near_window.h"
 
-layout(constant_id = NIGHTCITY_CONSTANT_SPHERES) const bool kSpheres = false;
+layout(constant_id = NIGHTCITY_CONSTANT_NEAR_EMITTER) const uint kNearEmitter = kEmitterPane;
+layout(constant_id = NIGHTCITY_CONSTANT_POINTS) const bool kPoints = false;
 layout(constant_id = NIGHTCITY_CONSTANT_CUT_ALL) const bool kCutAll = true;
 layout(constant_id = NIGHTCITY_CONSTANT_THIN_HAZE) const bool kThinHaze = false;
 layout(constant_id = NIGHTCITY_CONSTANT_LEDGER) const bool kLedger = false;
+
+bool isPoint(NearPane pane) {
+    return kNearEmitter != kEmitterPane || (kPoints && (pane.flags & kWindowSphere) != 0u);
+}
 
 // The ray about the pane, its parameter still that of `ray`.
 PaneFrame nearFrame(NearPane pane, Ray ray) {
@@ -74,10 +79,9 @@ void addPanes(PaneList list, NearPiece piece, bool inPieces, inout NearSum sum) 
          index = nextPaneBy(list, piece, inPieces)) {
         NearPane pane = NearPaneArray(nearTable.panes).at[index];
         PaneFrame frame = nearFrame(pane, piece.ray);
-        vec2 chord = nearChord(frame, piece.radius, 0.0, piece.span);
+        vec2 chord = nearChord(frame, 0.0, piece.radius, 0.0, piece.span);
         NearPass pass = nearPass(frame, chord, 0.0);
-        if (chord.x < chord.y && isNearCut(pass, frame, kCutAll) == inPieces &&
-            (!kSpheres || (pane.flags & kWindowSphere) == 0u)) {
+        if (chord.x < chord.y && isNearCut(pass, frame, kCutAll) == inPieces && !isPoint(pane)) {
             float light = inPieces ? nearAtEdges(pass, frame, piece.radius, piece.extinction,
                                                  piece.tolerance)
                                    : nearBeside(pass, frame, piece.radius, piece.extinction,
@@ -90,18 +94,20 @@ void addPanes(PaneList list, NearPiece piece, bool inPieces, inout NearSum sum) 
     }
 }
 
-void addSpheres(PaneList list, NearPiece piece, inout NearSum sum) {
+void addPoints(PaneList list, NearPiece piece, inout NearSum sum) {
     for (uint index = nextPaneBy(list, piece, false); index != kNone;
          index = nextPaneBy(list, piece, false)) {
         NearPane pane = NearPaneArray(nearTable.panes).at[index];
-        vec3 from = piece.ray.origin - pane.centre;
-        float along = -dot(from, piece.ray.direction);
-        vec2 chord = ballChord(from + along * piece.ray.direction, along, piece.radius, 0.0,
-                               piece.span);
-        if (chord.x < chord.y && (pane.flags & kWindowSphere) != 0u) {
-            sum.light += pane.radiance * nearSphere(from, piece.ray.direction, pane.halfU,
-                                                    piece.radius, chord, 0.0, piece.extinction);
-            sum.nodes += float(kSphereNodes);
+        bool hasLobe =
+            kNearEmitter == kEmitterLambertian && (pane.flags & kWindowSphere) == 0u;
+        PaneFrame frame = nearFrame(pane, piece.ray);
+        vec2 chord = nearChord(frame, pane.halfV, piece.radius, 0.0, piece.span);
+        if (chord.x < chord.y && isPoint(pane)) {
+            sum.light += pane.radiance * nearPoint(frame, hasLobe, pane.halfU, piece.radius, chord,
+                                                   0.0, piece.extinction, piece.tolerance);
+            if (kLedger) {
+                sum.nodes += float(nodesOfPoint(piece.tolerance));
+            }
         }
     }
 }
@@ -111,10 +117,12 @@ NearSum nearGlow(NearPiece piece, uint tile, GlowTable table) {
     GlowTile found = GlowTileArray(table.tiles).at[tile];
     PaneList list = PaneList(table.tilePanes, found.firstPane, found.firstPane + found.paneCount);
     NearSum sum = NearSum(vec3(0.0), 0.0);
-    addPanes(list, piece, false, sum);
-    addPanes(list, piece, true, sum);
-    if (kSpheres) {
-        addSpheres(list, piece, sum);
+    if (kNearEmitter == kEmitterPane) {
+        addPanes(list, piece, false, sum);
+        addPanes(list, piece, true, sum);
+    }
+    if (kPoints) {
+        addPoints(list, piece, sum);
     }
     return sum;
 }

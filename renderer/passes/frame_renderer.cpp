@@ -11,9 +11,9 @@
 namespace nightcity {
 namespace {
 
-// surface, lit, traverse, march or gauss; or surface, media ids, three rounds of plan, tiles and
-// glow, composite
-constexpr std::uint32_t kSpansPerBatch = 12;
+// surface, lit, traverse, march or gauss; or surface, lit, media ids, three rounds of plan, tiles
+// and glow, composite
+constexpr std::uint32_t kSpansPerBatch = 13;
 // Pixels of a band: about 100 MiB of records and images.
 constexpr std::uint32_t kBandPixels = 1u << 18;
 // Of --method field, whose records are smaller and whose bands overlap.
@@ -60,13 +60,16 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
     choice.media = settings.media;
     choice.aovs = writtenAovs(product, settings);
     const bool lit =
-        settings.method == Method::gauss && settings.model.surfaces == Surfaces::lit;
+        settings.method != Method::march && settings.model.surfaces == Surfaces::lit;
     if (!settings.media && settings.method != Method::path && !lit) {
         choice.task = settings.writeOnly ? kTaskWrite : kTaskImages;
         return choice;
     }
     if (settings.method == Method::field) {
         choice.near = scene.nearKinds(double(toleranceOf(settings)));
+        if (lit) {
+            choice.model = settings.model;
+        }
         return choice;
     }
     if (settings.method == Method::path) {
@@ -83,6 +86,15 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
         }
     }
     return choice;
+}
+
+// Without haze the field is not asked for.
+RenderSettings ofHaze(RenderSettings settings) {
+    if (!settings.media && settings.method == Method::field) {
+        settings.method = Method::gauss;
+        settings.tolerance = settings.tolerance.value_or(kFieldTolerance);
+    }
+    return settings;
 }
 
 constexpr double kNoReach = 1e15;  // m; a float holds its square
@@ -120,8 +132,9 @@ FrameRenderer::FrameRenderer(gpu::Device& device, gpu::Commands& commands)
     : device_(device), commands_(commands), timestamps_(device, kSpansPerBatch), raster_(device) {}
 
 FrameCost FrameRenderer::render(const GpuScene& scene, const CameraFrame& camera,
-                                const RenderProduct& product, const RenderSettings& settings,
+                                const RenderProduct& product, const RenderSettings& asked,
                                 const std::function<void(double)>& progress, Frame& frame) {
+    const RenderSettings settings = ofHaze(asked);
     Work work{.scene = scene,
               .settings = settings,
               .samples = samplePositions(settings),
@@ -256,7 +269,9 @@ void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
     table.height = product.height;
     table.sampleCount = static_cast<std::uint32_t>(work.samples.size());
     table.centreSample = static_cast<std::uint32_t>(centreSample(work.samples));
-    table.tolerance = static_cast<float>(work.settings.tolerance.value_or(0));
+    table.tolerance =
+        method == Method::field ? toleranceOf(work.settings)
+                                : static_cast<float>(work.settings.tolerance.value_or(0));
     table.lightCap = work.settings.lightCap.value_or(kNone);
     table.reach = static_cast<float>(work.settings.reach.value_or(kNoReach));
     if (method == Method::path) {
@@ -396,6 +411,9 @@ void FrameRenderer::traceGlow(Work& work, const PushConstants& push, bool last) 
         const double milliseconds = commands_.run("trace", [&](VkCommandBuffer commands) {
             timestamps_.begin(commands);
             dispatch(commands, "surface", pipelines_->surface, push);
+            if (pipelines_->choice.lightsSurfaces()) {
+                dispatch(commands, "lit", pipelines_->lit, push);
+            }
             if ((pipelines_->choice.aovs & kAovMediaId) != 0) {
                 dispatch(commands, "media ids", pipelines_->mediaIds, push);
             }

@@ -142,10 +142,10 @@ void GpuScene::uploadPlanes(const FlatScene& scene, const FacadeTable& facades) 
     contents_.windowPlane = uploadArray<uint>("planes of windows", planes.ofWindow);
 }
 
-void GpuScene::uploadNearField(const FlatScene& scene) {
+void GpuScene::uploadNearField(const FlatScene& scene, const FarFieldSettings& settings) {
     NearTable table{};
     table.radius = farField_.table().nearRadius;
-    near_ = buildNearPanes(scene, table.radius);
+    near_ = buildNearPanes(scene, settings.emitter, settings.visibility, table.radius);
     nearField_.clear();
     const auto keep = [&](const char* name, const void* data, std::uint64_t bytes) {
         nearField_.emplace_back(device_, name, bytes, gpu::MemoryKind::device);
@@ -247,7 +247,9 @@ void GpuScene::syncWindowState(const FlatScene& scene, int frame,
     const std::vector<std::uint8_t> on = scene.windowsOn(frame);
     const std::vector<std::uint32_t> bits = stateBits(on);
     uploadState(windowOn_, "window state", bits.data(), bits.size() * 4);
-    if (settings.method == Method::path || settings.method == Method::gauss) {
+    const bool lit =
+        settings.method == Method::field && settings.model.surfaces == Surfaces::lit;
+    if (settings.method == Method::path || settings.method == Method::gauss || lit) {
         uploadLightTree(scene, on, settings.model.emitter);
     }
     lights_.upload(packLights(scene, on, settings.lightCap), settings.lightStorage);
@@ -263,7 +265,7 @@ void GpuScene::syncFarField(const FlatScene& scene, std::span<const std::uint8_t
         farField_.syncGeometry(scene, settings, tableAddress(), progress);
         farFieldSettings_ = settings;
         contents_.farField = addressWords(farField_.tableAddress());
-        uploadNearField(scene);
+        uploadNearField(scene, settings);
         writeTable();
     }
     farField_.syncWindowState(scene, windowOn, tableAddress(), progress);

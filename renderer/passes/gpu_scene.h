@@ -66,7 +66,7 @@ private:
     void uploadMediaTree(const FlatScene& scene);
     void uploadHaze(const FlatScene& scene);
     void uploadPlanes(const FlatScene& scene, const FacadeTable& facades);
-    void uploadNearField(const FlatScene& scene);
+    void uploadNearField(const FlatScene& scene, const FarFieldSettings& settings);
     void buildTriangles(const FlatScene& scene);
     void buildMedia(const FlatScene& scene);
     void buildLoosePanes(const FlatScene& scene);

@@ -5,44 +5,110 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "passes/occluder_tree.h"
 #include "scene/box_tree.h"
+#include "scene/convex_faces.h"
 #include "transport/near_window.h"
 
 namespace nightcity {
 namespace {
 
-NearPane nearPane(const Window& window) {
+constexpr float kWithoutEnd = 1e15f;  // m; a float holds its square
+constexpr double kMostTilt = 1e-3;    // sine of the angle between a window and the wall behind it
+
+glm::dvec3 normalOf(const NearPane& pane) {
+    return glm::cross(glm::dvec3(pane.uAxis), glm::dvec3(pane.vAxis));
+}
+
+bool isSphere(const NearPane& pane) {
+    return (pane.flags & kWindowSphere) != 0;
+}
+
+NearPane nearPane(const Window& window, Emitter emitter) {
     NearPane pane{};
     pane.centre = window.centre;
     pane.halfU = glm::length(window.halfU);
     pane.flags = window.flags;
-    if ((window.flags & kWindowSphere) != 0) {
+    if (isSphere(pane)) {
         pane.uAxis = {1, 0, 0};
         pane.vAxis = {0, 1, 0};
+        pane.halfV = kWithoutEnd;
         pane.radiance = window.colour * float(window.power / (4 * std::numbers::pi));
         return pane;
     }
     pane.halfV = glm::length(window.halfV);
     pane.uAxis = window.halfU / pane.halfU;
     pane.vAxis = window.halfV / pane.halfV;
-    const double area = 4.0 * pane.halfU * pane.halfV;
-    pane.closeBy = float(std::hypot(pane.halfU, pane.halfV) + 1.01 * kNearCutSides * std::sqrt(area));
-    pane.radiance = window.colour * float(window.power / (std::numbers::pi * area));
+    if (emitter == Emitter::pane) {
+        const double area = 4.0 * pane.halfU * pane.halfV;
+        pane.closeBy =
+            float(std::hypot(pane.halfU, pane.halfV) + 1.01 * kNearCutSides * std::sqrt(area));
+        pane.radiance = window.colour * float(window.power / (std::numbers::pi * area));
+        return pane;
+    }
+    const bool isotropic = emitter == Emitter::isotropic;
+    pane.halfU = 0;
+    pane.halfV = isotropic ? kWithoutEnd : 0;
+    pane.radiance = window.colour * float(window.power / ((isotropic ? 4 : 1) * std::numbers::pi));
     return pane;
 }
 
-// Of the part of the ball about a pane that lies before it. Along an axis it ends at the ball
-// where the normal points that way, else at the rim of the pane's plane.
-Bounds reachOf(const NearPane& pane, double radius) {
-    const glm::dvec3 normal = glm::cross(glm::dvec3(pane.uAxis), glm::dvec3(pane.vAxis));
-    const bool isBall = (pane.flags & kWindowSphere) != 0;
+// The walls that stand close behind windows.
+class Walls {
+public:
+    explicit Walls(const FlatScene& scene) : faces_(scene), tree_(faces_.bounds()) {}
+
+    // m behind the centre of a window to the wall that it hangs on; nothing where it hangs on none.
+    std::optional<double> behind(const NearPane& pane) const {
+        const glm::dvec3 centre(pane.centre);
+        const glm::dvec3 normal = normalOf(pane);
+        std::optional<double> nearest;
+        const double reach = kPaneOnWall;
+        tree_.visitTouching({centre - reach, centre + reach}, [&](std::uint32_t face) {
+            const std::optional<double> depth = depthOf(faces_.face(face), centre, normal);
+            if (depth && *depth <= reach && *depth < nearest.value_or(INFINITY)) {
+                nearest = depth;
+            }
+        });
+        return nearest;
+    }
+
+private:
+    // Of the centre's foot on a face that is parallel to the window and behind it.
+    static std::optional<double> depthOf(std::span<const glm::dvec3> face, glm::dvec3 centre,
+                                         glm::dvec3 normal) {
+        const glm::dvec3 area = areaVector(face);
+        const double size = glm::length(area);
+        const double depth = glm::dot(centre - face.front(), normal);
+        if (glm::length(glm::cross(area, normal)) > kMostTilt * size || size == 0 || depth < 0) {
+            return std::nullopt;
+        }
+        for (std::size_t i = 0; i < face.size(); ++i) {
+            const glm::dvec3 edge = face[(i + 1) % face.size()] - face[i];
+            if (glm::dot(glm::cross(edge, centre - face[i]), area) < 0) {
+                return std::nullopt;
+            }
+        }
+        return depth;
+    }
+
+    ConvexFaces faces_;
+    BoxTree tree_;
+};
+
+// Of the part of the ball about a pane that it lights. Along an axis it ends at the ball where the
+// normal points that way, else at the rim of the pane's plane, `back` m behind it.
+Bounds reachOf(const NearPane& pane, double radius, double back) {
+    const glm::dvec3 normal = normalOf(pane);
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
-        const double rim = radius * std::sqrt(std::max(0.0, 1 - normal[axis] * normal[axis]));
-        bounds.lo[axis] = pane.centre[axis] - (isBall || normal[axis] <= 0 ? radius : rim);
-        bounds.hi[axis] = pane.centre[axis] + (isBall || normal[axis] >= 0 ? radius : rim);
+        const double rim =
+            std::min(radius, radius * std::sqrt(std::max(0.0, 1 - normal[axis] * normal[axis])) +
+                                 back * std::abs(normal[axis]));
+        bounds.lo[axis] = pane.centre[axis] - (normal[axis] <= 0 ? radius : rim);
+        bounds.hi[axis] = pane.centre[axis] + (normal[axis] >= 0 ? radius : rim);
     }
     return bounds;
 }
@@ -51,18 +117,29 @@ Bounds reachOf(const NearPane& pane, double radius) {
 
 NearKinds NearPanes::kinds(double tolerance) const {
     // From 0.5 % on a ray that does not graze needs no cuts (transport/near_window.h).
-    return {hasSpheres, tolerance < 0.005, opticalHalf <= tolerance};
+    return {emitter, hasPoints, tolerance < 0.005, opticalHalf <= tolerance};
 }
 
-NearPanes buildNearPanes(const FlatScene& scene, float radius) {
+NearPanes buildNearPanes(const FlatScene& scene, Emitter emitter, Visibility visibility,
+                         float radius) {
     NearPanes near;
+    near.emitter = emitter;
+    std::optional<Walls> walls;
+    if (emitter == Emitter::isotropic && visibility == Visibility::full) {
+        walls.emplace(scene);
+    }
     std::vector<Bounds> bounds;
     double longest = 0;
     for (const Window& window : scene.windows) {
-        const NearPane& pane = near.panes.emplace_back(nearPane(window));
-        near.hasSpheres |= (window.flags & kWindowSphere) != 0;
-        longest = std::max(longest, std::hypot(double(pane.halfU), double(pane.halfV)));
-        bounds.push_back(reachOf(pane, radius));
+        NearPane& pane = near.panes.emplace_back(nearPane(window, emitter));
+        if (walls && !isSphere(pane)) {
+            pane.halfV = float(walls->behind(pane).value_or(double(pane.halfV)));
+        }
+        near.hasPoints |= emitter != Emitter::pane || isSphere(pane);
+        longest = std::max(longest, std::hypot(double(glm::length(window.halfU)),
+                                               double(glm::length(window.halfV))));
+        const bool isPane = emitter == Emitter::pane && !isSphere(pane);
+        bounds.push_back(reachOf(pane, radius, isPane ? 0 : double(pane.halfV)));
     }
     for (const MediaBox& box : scene.mediaBoxes) {
         near.opticalHalf = std::max(near.opticalHalf, longest * double(box.extinction));

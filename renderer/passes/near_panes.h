@@ -10,12 +10,14 @@
 #include "dispatch.h"
 #include "glow.h"
 #include "scene/flat_scene.h"
+#include "settings.h"
 
 namespace nightcity {
 
 // What their integrals need not look at, for a tolerance.
 struct NearKinds {
-    bool spheres = false;   // some windows are
+    Emitter emitter = Emitter::pane;
+    bool points = false;    // some windows are points or spheres of light
     bool cutAll = true;     // all rays are cut at the edges of panes close by, not only grazing ones
     bool thinHaze = false;  // a pane's light is attenuated as from its centre
 
@@ -24,15 +26,18 @@ struct NearKinds {
 
 struct NearPanes {
     std::vector<NearPane> panes;  // one a window
-    std::vector<BoxNode> tree;    // over the part of each one's ball of the radius before it
-    bool hasSpheres = false;
+    std::vector<BoxNode> tree;    // over what each one lights of its ball of the radius
+    Emitter emitter = Emitter::pane;
+    bool hasPoints = false;
     double opticalHalf = 0;  // half the longest diagonal in the densest haze
 
     // tolerance: relative, of the glow.
     NearKinds kinds(double tolerance) const;
 };
 
-// `radius`: m, the near radius.
-NearPanes buildNearPanes(const FlatScene& scene, float radius);
+// `radius`: m, the near radius. With full visibility an isotropic window on a wall lights
+// nothing behind it; other walls within the radius hide nothing.
+NearPanes buildNearPanes(const FlatScene& scene, Emitter emitter, Visibility visibility,
+                         float radius);
 
 }  // namespace nightcity

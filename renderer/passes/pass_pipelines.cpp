@@ -101,6 +101,7 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
     } else if (choice.method == Method::gauss) {
         makeGauss(device);
     } else if (choice.method == Method::field) {
+        makeLit(device);
         mediaIds = makePipeline(device, "media ids", kMediaIdsSpirv, {kStructure});
     } else {
         makeMarch(device);
@@ -115,11 +116,15 @@ void PassPipelines::makeMarch(gpu::Device& device) {
                              marchConstants(choice));
 }
 
-void PassPipelines::makeGauss(gpu::Device& device) {
-    traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
+void PassPipelines::makeLit(gpu::Device& device) {
     if (choice.lightsSurfaces()) {
         lit = makePipeline(device, "lit", kLitSpirv, {}, modelConstants(choice));
     }
+}
+
+void PassPipelines::makeGauss(gpu::Device& device) {
+    traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
+    makeLit(device);
     if (choice.readsPages()) {
         inScatter = makePipeline(device, "gauss", kGaussPointsSpirv, pageBindings(choice.lights),
                                  marchConstants(choice));
@@ -160,13 +165,16 @@ std::vector<const gpu::ComputePipeline*> PassPipelines::all() const {
     if (choice.method == Method::path) {
         return {&surface, &path, &accumulate};
     }
-    if (choice.method == Method::field) {
-        return {&surface, &mediaIds};
-    }
+    std::vector<const gpu::ComputePipeline*> all{&surface};
     if (choice.lightsSurfaces()) {
-        return {&surface, &lit, &traverse, &inScatter, &accumulate};
+        all.push_back(&lit);
     }
-    return {&surface, &traverse, &inScatter, &accumulate};
+    if (choice.method == Method::field) {
+        all.push_back(&mediaIds);
+    } else {
+        all.insert(all.end(), {&traverse, &inScatter, &accumulate});
+    }
+    return all;
 }
 
 }  // namespace nightcity

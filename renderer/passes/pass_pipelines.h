@@ -35,7 +35,7 @@ struct PipelineChoice {
     MarchOrder order = MarchOrder::lights;
     LightPages lights;
     std::uint32_t subdivisions = 25;
-    // Of the path tracer, and of gauss with the pages:
+    // Of the path tracer, of gauss, and of the field where surfaces are lit:
     Model model;
     bool uniformHaze = false;  // scene/uniform_haze.h
     // Of the field:
@@ -46,14 +46,15 @@ struct PipelineChoice {
     bool readsPages() const;
     // Whether a pass lights what surface.comp found.
     bool lightsSurfaces() const {
-        return method == Method::gauss && model.surfaces == Surfaces::lit;
+        const bool known = method == Method::gauss || method == Method::field;
+        return known && model.surfaces == Surfaces::lit;
     }
 };
 
 struct PassPipelines {
     PipelineChoice choice;
     gpu::ComputePipeline surface;
-    gpu::ComputePipeline lit;        // with gauss and lit surfaces only
+    gpu::ComputePipeline lit;        // with gauss and field and lit surfaces only
     gpu::ComputePipeline traverse;   // with march and gauss and records only
     gpu::ComputePipeline inScatter;  // march, or gauss
     gpu::ComputePipeline path;       // with the path tracer only
@@ -68,6 +69,7 @@ struct PassPipelines {
 
 private:
     void makeMarch(gpu::Device& device);
+    void makeLit(gpu::Device& device);
     void makeGauss(gpu::Device& device);
     void makePath(gpu::Device& device);
 };

@@ -14,10 +14,11 @@
 NIGHTCITY_BEGIN
 
 // Specialization constants of glow_trace.comp.
-#define NIGHTCITY_CONSTANT_SPHERES 0    // 1: some windows are spheres
+#define NIGHTCITY_CONSTANT_POINTS 0     // 1: some windows are points or spheres of light
 #define NIGHTCITY_CONSTANT_CUT_ALL 1    // as isNearCut of transport/near_window.h has it
 #define NIGHTCITY_CONSTANT_THIN_HAZE 2  // 1: as nearPiece of transport/near_window.h has it
 #define NIGHTCITY_CONSTANT_LEDGER 3     // 1: a GlowLedger a ray is kept
+#define NIGHTCITY_CONSTANT_NEAR_EMITTER 4  // kEmitterIsotropic and so on
 
 NIGHTCITY_CONST uint kGlowCell = 4u;    // pixels a side of a cell; bit 4 row + column of a mask
 NIGHTCITY_CONST uint kGlowRounds = 3u;  // of choosing rays and integrating along them
@@ -26,15 +27,16 @@ NIGHTCITY_CONST uint kTilePixels = kTileCells * kTileCells * kGlowCell * kGlowCe
 NIGHTCITY_CONST uint kTraceGroup = 32u;  // threads of glow_trace.comp, a group a tile
 NIGHTCITY_CONST uint kTileGroup = 64u;  // threads of glow_tiles.comp, one a tile
 
-// A window as its near part is integrated (transport/near_window.h); one a window.
+// A window as its near part is integrated (transport/near_window.h); one a window. What is said of
+// points holds for all windows where the model's emitter is not the pane, and for spheres of light.
 struct NearPane {
     vec3 centre;    // m
-    float halfU;    // m, half side along uAxis; of a sphere the radius
+    float halfU;    // m, half side along uAxis; of a point the radius of its sphere, else 0
     vec3 uAxis;     // unit vectors; their cross product points outward
-    float halfV;
+    float halfV;    // m; of a point how far behind its plane it shines
     vec3 vAxis;
     uint flags;     // of the Window
-    vec3 radiance;  // W m^-2 sr^-1 when lit; of a sphere the intensity, W sr^-1
+    vec3 radiance;  // W m^-2 sr^-1 when lit; of a point the largest intensity, W sr^-1
     float closeBy;  // m from the centre: a ray farther off passes no edge within kNearCutSides
 };
 

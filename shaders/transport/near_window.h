@@ -6,7 +6,9 @@
 //   Int omega(x(t)) nearShare(d^2 / R^2) exp(-tau (t + mean distance to the pane)) dt    (m sr)
 //
 // over the part of the ray within R of the pane's centre and in front of it. Times the
-// pane's radiance P / (pi A) this is the integral of the near fluence. Binding-free.
+// pane's radiance P / (pi A) this is the integral of the near fluence. A window that is a point
+// of light has lobe / d^2 in the place of omega and its intensity in that of the radiance.
+// Binding-free.
 //
 // The nodes lie evenly in the angle under which the pane sees the ray, as if the ray passed
 // it at least at half a side (airlight_pane_near.h). How many are needed depends on how near
@@ -21,8 +23,8 @@
 
 NIGHTCITY_BEGIN
 
-// Of a piece of a ray past a sphere of light: 1e-3 of all that the share takes from the integral.
-NIGHTCITY_CONST int kSphereNodes = 8;
+// Of a piece of a ray past a point of light, that are within 0.5 % (99 of 100 random rays).
+NIGHTCITY_CONST float kNodesOfPoint = 8.0f;
 // Sides from the pane within which a ray is cut at the pane's edges.
 NIGHTCITY_CONST float kNearCutSides = 0.3f;
 // Nodes of each piece between such cuts that are within 1 %.
@@ -42,18 +44,20 @@ NIGHTCITY_FUNCTION vec2 ballChord(vec3 foot, float delta, float radius, float be
     return vec2(max(begin, delta - reach), min(end, delta + reach));
 }
 
-// The same in front of a pane and about its centre.
-NIGHTCITY_FUNCTION vec2 nearChord(PaneFrame pane, float radius, float begin, float end) {
+// The same about a window's centre, and nowhere farther than `back` m behind its plane.
+NIGHTCITY_FUNCTION vec2 nearChord(PaneFrame pane, float back, float radius, float begin,
+                                  float end) {
     float delta = -dot(pane.origin, pane.direction);
     vec3 foot = pane.origin + delta * pane.direction;
     vec2 chord = ballChord(foot, delta, radius, begin, end);
     float speed = pane.direction.z;
-    float crossing = delta - foot.z / (abs(speed) > 1e-12f ? speed : 1e-12f);
+    float height = foot.z + back;
+    float crossing = delta - height / (abs(speed) > 1e-12f ? speed : 1e-12f);
     if (speed > 0.0f) {
         chord.x = max(chord.x, crossing);
     } else if (speed < 0.0f) {
         chord.y = min(chord.y, crossing);
-    } else if (foot.z <= 0.0f) {
+    } else if (height <= 0.0f) {
         chord.y = chord.x;
     }
     return chord;
@@ -165,36 +169,51 @@ NIGHTCITY_FUNCTION float nearAtEdges(NearPass pass, PaneFrame pane, float radius
     return nearPieces(pass.interval, pane, radius, extinction, nodesFor(kNodesOfPiece, tolerance));
 }
 
-// Int nearShare(d^2 / R^2) exp(-tau (t + d)) / d^2 dt (1/m) of a sphere of light, about whose
-// centre the interval is, outside of it: its near fluence for an intensity of 1 W/sr.
-NIGHTCITY_FUNCTION float nearSpherePiece(AirlightInterval i, float radius, float extinction) {
+// Int lobe nearShare(d^2 / R^2) exp(-tau (t + d)) / d^2 dt (1/m) of a point of light, about which
+// the interval is: its near fluence for an intensity of 1 W/sr. The lobe is 1, or of a cosine
+// emitter the cosine to the z axis of the pane. The nodes lie evenly in the angle.
+NIGHTCITY_FUNCTION float nearPointPiece(AirlightInterval i, PaneFrame pane, bool hasLobe,
+                                        float radius, float extinction, int count) {
     float arc = airlightArc(i);
     float sum = 0.0f;
-    for (int index = 0; index < kSphereNodes; ++index) {
-        vec2 node = gaussNode(kSphereNodes, index);
+    for (int index = 0; index < count; ++index) {
+        vec2 node = gaussNode(count, index);
         float step = airlightStepOfArc(i, arc, node.x);
         float d = airlightDistance(i, step);
-        sum += node.y * nearShare(d * d / (radius * radius)) *
-               airlightAttenuation(i, extinction, step, d);
+        float light = nearShare(d * d / (radius * radius)) *
+                      airlightAttenuation(i, extinction, step, d);
+        if (hasLobe) {
+            light *= max(i.foot.z + (i.ua + step) * pane.direction.z, 0.0f) / d;
+        }
+        sum += node.y * light;
     }
     return sum * arc / i.h;
 }
 
-// fromCentre: the ray's origin less the centre; chord: of ballChord, not empty.
-NIGHTCITY_FUNCTION float nearSphere(vec3 fromCentre, vec3 direction, float size, float radius,
-                                    vec2 chord, float begin, float extinction) {
-    AirlightInterval i = airlightInterval(fromCentre, direction, chord.x, chord.y);
+// How many nodes a piece past a point takes; tolerance as in nodesFor.
+NIGHTCITY_FUNCTION int nodesOfPoint(float tolerance) {
+    return nodesFor(kNodesOfPoint, min(tolerance, 0.01f));
+}
+
+// The ray about the point of light; chord: of nearChord, not empty; attenuation counts from `begin`.
+// `size`: m, of a sphere of light, whose inside is left out; 0 of a point.
+NIGHTCITY_FUNCTION float nearPoint(PaneFrame pane, bool hasLobe, float size, float radius,
+                                   vec2 chord, float begin, float extinction, float tolerance) {
+    int count = nodesOfPoint(tolerance);
+    AirlightInterval i = airlightInterval(pane.origin, pane.direction, chord.x, chord.y);
     i.begin -= begin;
     if (i.h >= size) {
-        return nearSpherePiece(i, radius, extinction);
+        return nearPointPiece(i, pane, hasLobe, radius, extinction, count);
     }
     float inside = sqrt(size * size - i.h * i.h);
     float sum = 0.0f;
     if (i.ua < -inside) {
-        sum += nearSpherePiece(airlightPart(i, i.ua, min(i.ub, -inside)), radius, extinction);
+        sum += nearPointPiece(airlightPart(i, i.ua, min(i.ub, -inside)), pane, hasLobe, radius,
+                              extinction, count);
     }
     if (i.ub > inside) {
-        sum += nearSpherePiece(airlightPart(i, max(i.ua, inside), i.ub), radius, extinction);
+        sum += nearPointPiece(airlightPart(i, max(i.ua, inside), i.ub), pane, hasLobe, radius,
+                              extinction, count);
     }
     return sum;
 }

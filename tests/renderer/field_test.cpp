@@ -27,10 +27,10 @@ RenderSettings fieldSettings(GlowRays rays = GlowRays::sparse) {
     return settings;
 }
 
-Frame judged(const FlatScene& scene, const RenderProduct& product) {
+Frame judged(const FlatScene& scene, const RenderProduct& product, const Model& model = kSingle) {
     RenderSettings settings;
     settings.method = Method::reference;
-    settings.model = kSingle;
+    settings.model = model;
     settings.tolerance = 0.01;
     return renderReference(scene, product, settings, {}).frame;
 }
@@ -95,6 +95,97 @@ TEST_P(FieldCameras, AgreeWithTheJudge) {
 INSTANTIATE_TEST_SUITE_P(TwoWindows, FieldCameras,
                          testing::Values(Case{"front", 0.005, 0.03}, Case{"inside", 0.01, 0.03},
                                          Case{"atPane", 0.005, 0.03}));
+
+// A window a metre from the corner of a building, one around it, and haze of two kinds.
+SceneBuilder corner() {
+    SceneBuilder city;
+    const uint wall = city.addMaterial(vec3(0.5f));
+    city.ground = GroundPlane{0, wall};
+    city.addBoxBuilding({-6, 0, 0}, {6, 8, 12}, wall);
+    city.addWindow({-2, -0.01f, 6}, {0.6f, 0, 0}, {0, 0, 0.75f}, 50, vec3(1, 0.8f, 0.5f));
+    city.addWindow({5, -0.01f, 6}, {0.6f, 0, 0}, {0, 0, 0.75f}, 50, vec3(0.5f, 0.8f, 1));
+    city.addWindow({6.01f, 4, 6}, {0, 0.6f, 0}, {0, 0, 0.75f});
+    city.addMediaBox({-8, -12, 0}, {14, 0, 12}, 0.02f, 0.9f);
+    city.addMediaBox({6, 0, 0}, {14, 8, 12}, 0.04f, 0.8f);
+    city.addCamera("corner", {20, -10, 9}, {5, 0, 6}, 50);
+    return city;
+}
+
+struct ModelCase {
+    Emitter emitter;
+    Visibility visibility;
+    Surfaces surfaces = Surfaces::dim;
+
+    Model model() const {
+        return {Lights::all, visibility, emitter, Scattering::single, surfaces};
+    }
+};
+
+void PrintTo(const ModelCase& c, std::ostream* out) {
+    *out << (c.emitter == Emitter::isotropic    ? "isotropic"
+             : c.emitter == Emitter::lambertian ? "lambertian"
+                                                : "pane")
+         << (c.visibility == Visibility::full ? ", hidden" : ", unhidden")
+         << (c.surfaces == Surfaces::lit ? ", lit" : "");
+}
+
+class FieldModels : public testing::TestWithParam<ModelCase> {};
+
+TEST_P(FieldModels, AgreeWithTheJudge) {
+    const FlatScene scene = corner().load();
+    const RenderProduct product = some(productOf("corner", 96, 64), 8);
+    RenderSettings settings = fieldSettings();
+    settings.model = GetParam().model();
+    const Frame field = renderOnDevice(scene, product, settings);
+    const Frame judge = judged(scene, product, settings.model);
+    const GlowErrors errors = glowErrors(field, judge);
+    EXPECT_LT(errors.median, 0.005);
+    EXPECT_LT(errors.p95, 0.01);
+    EXPECT_LT(errors.worst, 0.04);
+    for (std::size_t i = 0; i < judge.surface.size(); ++i) {
+        EXPECT_NEAR(field.surface[i].y, judge.surface[i].y, 0.01f * judge.surface[i].y);
+    }
+}
+
+TEST_P(FieldModels, AToggledStateEqualsAFreshBakeToTheBit) {
+    SceneBuilder city = corner();
+    city.windowEvents = {{2, 1, 0}};
+    const FlatScene scene = city.load();
+    RenderProduct product = productOf("corner", 64, 42);
+    product.frame = 2;
+    RenderSettings settings = fieldSettings();
+    settings.model = GetParam().model();
+    const Frame fresh = renderOnDevice(scene, product, settings);
+    RenderDelegate& delegate = testDelegate();
+    product.frame = 1;
+    EXPECT_NE(renderOnDevice(scene, product, settings).glow, fresh.glow);
+    product.frame = 2;
+    SceneChanges changes;
+    changes.geometry = false;
+    delegate.sync(scene, product.camera, product.frame, settings, changes);
+    delegate.render(product, settings, {});
+    expectSame(delegate.resolve(), fresh);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, FieldModels,
+    testing::Values(ModelCase{Emitter::isotropic, Visibility::full},
+                    ModelCase{Emitter::lambertian, Visibility::full},
+                    ModelCase{Emitter::pane, Visibility::full, Surfaces::lit},
+                    ModelCase{Emitter::isotropic, Visibility::none},
+                    ModelCase{Emitter::lambertian, Visibility::none, Surfaces::lit},
+                    ModelCase{Emitter::pane, Visibility::none}));
+
+TEST(Field, LightsSurfacesAlsoWithoutHaze) {
+    const FlatScene scene = corner().load();
+    const RenderProduct product = productOf("corner", 40, 26);
+    RenderSettings settings = fieldSettings();
+    settings.model.surfaces = Surfaces::lit;
+    settings.media = false;
+    const Frame field = renderOnDevice(scene, product, settings);
+    settings.method = Method::gauss;
+    expectSame(field, renderOnDevice(scene, product, settings));
+}
 
 TEST(Field, SparseRaysStayWithinTheToleranceOfAllRays) {
     const FlatScene scene = twoWindows().load();

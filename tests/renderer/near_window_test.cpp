@@ -33,7 +33,7 @@ NearCase randomCase(RandomNumbers& random) {
         c.pane.b = float(random.between(0.5, 1));
         c.pane.direction = glm::vec3(w);
         c.pane.origin = glm::vec3(through - 30.0 * w);
-        c.chord = nearChord(c.pane, float(kRadius), 0, 1000);
+        c.chord = nearChord(c.pane, 0, float(kRadius), 0, 1000);
     } while (c.chord.y - c.chord.x < 1e-3f);
     return c;
 }
@@ -121,7 +121,7 @@ TEST(NearWindow, HoldsAlongThePane) {
         const glm::dvec3 through(random.between(-0.5, 0.5), random.between(-0.5, 0.5), away);
         c.pane.direction = glm::vec3(w);
         c.pane.origin = glm::vec3(through - 5.0 * w);
-        c.chord = nearChord(c.pane, float(kRadius), 0, 1000);
+        c.chord = nearChord(c.pane, 0, float(kRadius), 0, 1000);
         const Exact exact = exactNear(c, 0.01);
         const double found = nearWindow(c, c.chord, c.chord.x, 0.01f, 0.01f);
         EXPECT_NEAR(found, exact.near, 0.03 * exact.whole) << "ray " << i;
@@ -130,18 +130,77 @@ TEST(NearWindow, HoldsAlongThePane) {
 
 TEST(NearWindow, HasNoChordBehindThePaneOrPastTheRadius) {
     PaneFrame pane{0.6f, 0.75f, {0, 0, -1}, {1, 0, 0}};
-    vec2 chord = nearChord(pane, 4, 0, 100);
+    vec2 chord = nearChord(pane, 0, 4, 0, 100);
     EXPECT_LE(chord.y, chord.x);
     pane.origin.z = 4.5f;
-    chord = nearChord(pane, 4, 0, 100);
+    chord = nearChord(pane, 0, 4, 0, 100);
     EXPECT_LE(chord.y, chord.x);
 }
 
 TEST(NearWindow, EndsAtThePlaneOfThePane) {
     const PaneFrame pane{0.6f, 0.75f, {0, 0, 10}, {0, 0, -1}};
-    const vec2 chord = nearChord(pane, 4, 0, 100);
+    const vec2 chord = nearChord(pane, 0, 4, 0, 100);
     EXPECT_FLOAT_EQ(chord.x, 6);
     EXPECT_FLOAT_EQ(chord.y, 10);
+}
+
+TEST(NearWindow, EndsAtTheWallBehindAPoint) {
+    const PaneFrame pane{0, 0, {0, 0, 10}, {0, 0, -1}};
+    EXPECT_FLOAT_EQ(nearChord(pane, 0.5f, 4, 0, 100).y, 10.5f);
+    EXPECT_FLOAT_EQ(nearChord(pane, 1e15f, 4, 0, 100).y, 14);
+}
+
+// Of a point of light; in the angle under which it sees the ray.
+double exactPoint(const NearCase& c, bool hasLobe, double extinction, bool hasShare) {
+    constexpr int kPanels = 400;
+    const glm::dvec3 w = glm::normalize(glm::dvec3(c.pane.direction));
+    const glm::dvec3 origin(c.pane.origin);
+    const double delta = -glm::dot(origin, w);
+    const double h = glm::length(origin + delta * w);
+    const double low = std::atan((c.chord.x - delta) / h);
+    const double span = (std::atan((c.chord.y - delta) / h) - low) / kPanels;
+    double sum = 0;
+    for (int panel = 0; panel < kPanels; ++panel) {
+        for (int k = 0; k < 4; ++k) {
+            const vec2 node = gaussNode(4, k);
+            const double angle = low + span * (panel + double(node.x));
+            const double t = delta + h * std::tan(angle);
+            const glm::dvec3 x = origin + t * w;
+            const double d = glm::length(x);
+            const double rest = std::max(1 - d * d / (kRadius * kRadius), 0.0);
+            sum += span / h * double(node.y) * (hasLobe ? std::max(x.z, 0.0) / d : 1) *
+                   (hasShare ? rest * rest * rest * (4 - 3 * rest) : 1) *
+                   std::exp(-extinction * (t - c.chord.x + d));
+        }
+    }
+    return sum;
+}
+
+ErrorFigures pointFigures(bool hasLobe, float tolerance) {
+    constexpr float kExtinction = 0.05f;
+    RandomNumbers random(5);
+    std::vector<double> errors;
+    for (int i = 0; i < 600; ++i) {
+        NearCase c = randomCase(random);
+        c.chord = nearChord(c.pane, hasLobe ? 0 : 1e15f, float(kRadius), 0, 1000);
+        const double found = nearPoint(c.pane, hasLobe, 0, float(kRadius), c.chord, c.chord.x,
+                                       kExtinction, tolerance);
+        errors.push_back(std::abs(found - exactPoint(c, hasLobe, double(kExtinction), true)) /
+                         exactPoint(c, hasLobe, double(kExtinction), false));
+    }
+    return errorFigures(errors);
+}
+
+TEST(NearWindow, OfPointsHoldsTheToleranceOnRandomRays) {
+    for (const bool hasLobe : {false, true}) {
+        const ErrorFigures percent = pointFigures(hasLobe, 0.01f);
+        EXPECT_LT(percent.p50, 1e-4);
+        EXPECT_LT(percent.p99, 5e-3);
+        EXPECT_LT(percent.max, 0.02);
+        const ErrorFigures thousandth = pointFigures(hasLobe, 0.001f);
+        EXPECT_LT(thousandth.p50, 1e-5);
+        EXPECT_LT(thousandth.p99, 1.5e-3);
+    }
 }
 
 TEST(NearWindow, IsTheSumOfItsParts) {

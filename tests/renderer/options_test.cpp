@@ -96,6 +96,7 @@ TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--aovs", "glowError");
     EXPECT_REFUSED("--method field", "s", "-o", "a.exr", "--aovs", "error");
     EXPECT_REFUSED("--method field", "s", "-o", "a.exr", "--method", "path", "--aovs", "cost");
+    EXPECT_REFUSED("gauss or march", "s", "-o", "a.exr", "--method", "field", "--lights", "listed");
     EXPECT_REFUSED("--method gauss", "s", "-o", "a.exr", "--lights", "all");
     EXPECT_REFUSED("--method gauss", "s", "-o", "a.exr", "--visibility", "full");
     for (const char* option : {"--subdivisions", "--light-cap"}) {

@@ -46,7 +46,7 @@ class Method:
     colour: str
     marker: str
     paper_only: bool = False  # knows the paper's model alone
-    panes_only: bool = False  # knows panes alone: all lights, full visibility, single scattering
+    panes_only: bool = False  # asked of panes alone: all lights, full visibility, single scattering
     replicas: int = 1  # of a single ray, side by side: a noisy method's are independent
     orders: bool = False  # knows multiple scattering
     on_device: bool = True
