@@ -18,8 +18,6 @@ namespace {
 
 constexpr double kMostReach = 1e6;  // m
 
-using Given = std::function<bool(const char*)>;
-
 void require(bool holds, const std::string& message) {
     if (!holds) {
         throw UsageError(message);
@@ -115,7 +113,7 @@ void checkPaths(const Options& options, const Given& given) {
 
 void checkGauss(const Options& options, const Given& given) {
     for (const char* name : {"--subdivisions", "--march-order"}) {
-        require(!given(name), std::string(name) + " is not for --method gauss; it takes --tolerance");
+        require(!given(name), std::string(name) + " is for --method march; gauss takes --tolerance");
     }
     const double tolerance = options.settings.tolerance.value_or(0.01);
     require(tolerance >= 1e-4 && tolerance <= 0.1,
@@ -125,7 +123,8 @@ void checkGauss(const Options& options, const Given& given) {
 
 void checkField(const Options& options, const Given& given) {
     for (const char* name : {"--subdivisions", "--march-order", "--light-storage", "--light-cap"}) {
-        require(!given(name), std::string(name) + " is not for --method field; it takes --tolerance");
+        require(!given(name), std::string(name) + " is not for --method field, which takes "
+                                                  "--tolerance; add --method march");
     }
     const RenderSettings& settings = options.settings;
     const double tolerance = settings.tolerance.value_or(kFieldTolerance);
@@ -159,9 +158,10 @@ void checkMethod(const Options& options, const Given& given) {
                 "--aovs " + std::string(name) + " is for --method field; --method path has " +
                     std::string(kErrorAov));
     }
-    require(!settings.writeOnly || (!settings.media && settings.method == Method::march),
-            "--write-only is for --media off and --method march: it is the least that the surface "
-            "frame can cost");
+    require(!settings.writeOnly || (!settings.media && settings.model.surfaces == Surfaces::dim &&
+                                    settings.method != Method::path),
+            "--write-only is for --media off, dim surfaces and any method but path: it is the least "
+            "that the surface frame can cost");
     if (settings.method == Method::path) {
         return;
     }

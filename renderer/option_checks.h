@@ -8,8 +8,11 @@
 
 namespace nightcity {
 
+// Whether an option was on the command line.
+using Given = std::function<bool(const char*)>;
+
 // What no single option shows: throws UsageError where options exclude each other or
-// miss one another. `given` tells whether an option was on the command line.
-void checkCombinations(const Options& options, const std::function<bool(const char*)>& given);
+// miss one another.
+void checkCombinations(const Options& options, const Given& given);
 
 }  // namespace nightcity

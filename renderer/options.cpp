@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "choices.h"
+#include "defaults.h"
 #include "errors.h"
 #include "frame_names.h"
 #include "option_checks.h"
@@ -126,23 +127,18 @@ void addWhat(CLI::App& app, Options& options) {
 // wherever they stand on the command line.
 void addModel(CLI::App& app, Options& options) {
     Model& model = options.settings.model;
+    model = kSingleModel;
     app.add_option_function<std::string>(
            "--model",
            [&model](const std::string& text) {
                if (text == "paper") {
                    model = {};
                } else if (text == "single") {
-                   model = {.lights = Lights::all,
-                            .visibility = Visibility::full,
-                            .emitter = Emitter::pane,
-                            .scattering = Scattering::single,
-                            .surfaces = Surfaces::dim};
+                   model = kSingleModel;
                } else if (text == "full") {
-                   model = {.lights = Lights::all,
-                            .visibility = Visibility::full,
-                            .emitter = Emitter::pane,
-                            .scattering = Scattering::multiple,
-                            .surfaces = Surfaces::lit};
+                   model = kSingleModel;
+                   model.scattering = Scattering::multiple;
+                   model.surfaces = Surfaces::lit;
                } else {
                    throw UsageError("--model " + text +
                                     " is not known; there is paper, single and full");
@@ -152,7 +148,7 @@ void addModel(CLI::App& app, Options& options) {
            "--scattering single --surfaces dim; single is all, full, pane, single, dim; full is all, "
            "full, pane, multiple, lit")
         ->type_name("paper|single|full")
-        ->default_str("paper");
+        ->default_str("single; of the march paper");
     addChoice(app, "--lights", model.lights, "which windows light a point");
     addChoice(app, "--visibility", model.visibility, "what hides them");
     addChoice(app, "--emitter", model.emitter, "how a window shines");
@@ -177,7 +173,10 @@ void addMethod(CLI::App& app, Options& options) {
     RenderSettings& settings = options.settings;
     addChoice(app, "--method", settings.method,
               "march, quadrature to a tolerance, field or Monte Carlo paths on the device; or in double "
-              "precision on the CPU the exact integral, with --subdivisions the same march");
+              "precision on the CPU the exact integral, with --subdivisions the same march. Default: "
+              "path for --scattering multiple, gauss for --lights listed, --reach and tolerances "
+              "below 0.01, else field")
+        ->default_str("by the model");
     addCount(app, "--subdivisions", settings.subdivisions, "steps of the march in each media box");
     app.add_option("--tolerance", settings.tolerance,
                    "relative error of the glow, of --method gauss and, in 95 of 100 pixels, field (its "
@@ -235,6 +234,25 @@ void addRun(CLI::App& app, Options& options, bool& quiet) {
     app.add_flag("--quiet", quiet, "no progress, no notes");
 }
 
+// Of the march and its model: --subdivisions makes the reference march.
+bool isMarch(const RenderSettings& settings, const Given& given) {
+    return settings.method == Method::march ||
+           (settings.method == Method::reference && given("--subdivisions"));
+}
+
+void fillIn(RenderSettings& settings, const Given& given) {
+    if (!given("--method")) {
+        settings.method = defaultMethod(settings);
+    }
+    if (isMarch(settings, given) && !given("--model")) {
+        const Model paper;
+        Model& model = settings.model;
+        model.lights = given("--lights") ? model.lights : paper.lights;
+        model.visibility = given("--visibility") ? model.visibility : paper.visibility;
+        model.emitter = given("--emitter") ? model.emitter : paper.emitter;
+    }
+}
+
 }  // namespace
 
 std::optional<Options> parseOptions(int argc, const char* const* argv, std::ostream& out) {
@@ -260,13 +278,13 @@ std::optional<Options> parseOptions(int argc, const char* const* argv, std::ostr
     if (quiet) {
         options.progress = ProgressStyle::none;
     }
-    checkCombinations(options, [&](const char* name) { return app.count(name) > 0; });
-    const Method method = options.settings.method;
-    const bool toTolerance =
-        method == Method::gauss || method == Method::field ||
-        (method == Method::reference && app.count("--subdivisions") == 0);
-    if (toTolerance && !options.settings.tolerance) {
-        options.settings.tolerance = kDefaultTolerance;
+    const Given given = [&](const char* name) { return app.count(name) > 0; };
+    RenderSettings& settings = options.settings;
+    fillIn(settings, given);
+    checkCombinations(options, given);
+    const bool toTolerance = settings.method != Method::path && !isMarch(settings, given);
+    if (toTolerance && !settings.tolerance) {
+        settings.tolerance = kDefaultTolerance;
     }
     return options;
 }

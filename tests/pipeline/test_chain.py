@@ -19,7 +19,7 @@ import nightcity.schemas
 nightcity.schemas.register()
 
 SIZE = "192x106"
-CAMERA = ("--camera", "overview75", "--size", SIZE)
+CAMERA = ("--camera", "overview75", "--size", SIZE, "--tolerance", "0.1")
 
 
 def read_image(path: Path) -> tuple[dict[str, np.ndarray], OpenImageIO.ImageSpec]:
@@ -58,10 +58,12 @@ def test_picture_shows_windows_and_glow(picture: Path) -> None:
     channels, spec = read_image(picture)
     assert (spec.width, spec.height) == (192, 106)
     assert all(np.isfinite(values).all() for values in channels.values())
-    haze = channels["transmittance.Y"] < 1
+    transmittance = channels["transmittance.Y"]
+    # A ray onto a roof may meet micrometres of haze, with next to no glow or none at all.
+    haze = transmittance < 1 - 1e-5
     assert 0.1 < haze.mean() < 0.9
     assert (channels["glow.R"][haze] > 0).all()
-    assert (channels["glow.R"][~haze] == 0).all()
+    assert (channels["glow.R"][~haze] < 1e-5 * channels["glow.R"].max()).all()
     # A lit window seen directly emits P / (pi A) = 50 / (pi 1.2 1.5) = 8.84 W m^-2 sr^-1.
     assert 8 < (channels["R"] / channels["transmittance.Y"]).max() < 9.2
     for c in "RGB":
@@ -180,7 +182,7 @@ def test_town(nightcity: Command, tmp_path: Path) -> None:
     nightcity("import", ROOT / "tests/data/delft-excerpt.city.json", "-o", town)
     nightcity("validate", town)
     picture = tmp_path / "town.png"
-    nightcity("render", town, "--size", SIZE, "-o", picture)
+    nightcity("render", town, "--size", SIZE, "--tolerance", "0.1", "-o", picture)
     values = read_image(picture)[0]["R"]
     assert values.std() > 0.02
 
@@ -192,7 +194,7 @@ def test_town(nightcity: Command, tmp_path: Path) -> None:
         (("--size", "0x10"), 2, "size"),
         (("--subdivisions", "0"), 2, "subdivisions"),
         (("--method", "guess"), 2, "march"),
-        (("--model", "full"), 2, "--method path"),
+        (("--model", "full", "--method", "field"), 2, "--method path"),
         (("--model", "best"), 2, "paper"),
     ],
 )

@@ -14,7 +14,8 @@ import OpenImageIO
 import pytest
 from farm_job import ENVIRONMENT, OPTIONS, call, make_shot
 
-SIZE = ("--size", "64x37", "--subdivisions", "3", "--camera", "street")
+SIZE = ("--size", "64x37", "--camera", "street")
+SIZE += ("--method", "march", "--subdivisions", "3")
 
 
 def read(path: Path) -> tuple[np.ndarray, dict[str, str], list[str]]:

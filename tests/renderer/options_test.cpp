@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "defaults.h"
 #include "errors.h"
 #include "frame_names.h"
 #include "image_metadata.h"
@@ -43,7 +44,9 @@ TEST(Options, Defaults) {
     const Options options = *parse({"city.scene", "-o", "a.exr"});
     EXPECT_EQ(options.scene, "city.scene");
     EXPECT_EQ(options.settings.subdivisions, 25u);
-    EXPECT_EQ(options.settings.method, Method::march);
+    EXPECT_EQ(options.settings.method, Method::field);
+    EXPECT_EQ(options.settings.model, kSingleModel);
+    EXPECT_EQ(options.settings.tolerance, 0.01);
     EXPECT_FALSE(options.size || options.camera || options.frames || options.aovs);
     EXPECT_EQ(options.repeat, 1u);
 }
@@ -73,6 +76,32 @@ TEST(Options, EveryOptionArrives) {
     EXPECT_EQ(options.tile->count, 3u);
 }
 
+TEST(Options, TheModelChoosesTheMethod) {
+    const auto method = [](std::vector<const char*> arguments) {
+        arguments.insert(arguments.begin(), {"s", "-o", "a.exr"});
+        return parse(arguments)->settings.method;
+    };
+    EXPECT_EQ(method({"--model", "single"}), Method::field);
+    EXPECT_EQ(method({"--emitter", "isotropic", "--visibility", "none"}), Method::field);
+    EXPECT_EQ(method({"--surfaces", "lit", "--tolerance", "0.01"}), Method::field);
+    EXPECT_EQ(method({"--media", "off", "--write-only"}), Method::field);
+    EXPECT_EQ(method({"--model", "paper"}), Method::gauss);
+    EXPECT_EQ(method({"--lights", "listed"}), Method::gauss);
+    EXPECT_EQ(method({"--reach", "20"}), Method::gauss);
+    EXPECT_EQ(method({"--tolerance", "0.001"}), Method::gauss);
+    EXPECT_EQ(method({"--model", "full"}), Method::path);
+    EXPECT_EQ(method({"--scattering", "multiple"}), Method::path);
+}
+
+TEST(Options, TheMarchIsOfThePapersModel) {
+    for (const std::vector<const char*>& options :
+         {std::vector<const char*>{"s", "-o", "a.exr", "--method", "march"},
+          {"s", "-o", "a.exr", "--method", "reference", "--subdivisions", "4"}}) {
+        EXPECT_EQ(parse(options)->settings.model, Model{});
+    }
+    EXPECT_EQ(parse({"s", "-o", "a.exr", "--method", "reference"})->settings.model, kSingleModel);
+}
+
 TEST(Options, VersionAndHelpAreAnswered) {
     std::string shown;
     EXPECT_FALSE(parse({"--version"}, &shown));
@@ -88,17 +117,23 @@ TEST(Options, UnknownChoicesNameTheKnownOnes) {
 }
 
 TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
-    EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--model", "full");
-    EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--scattering", "multiple");
+    for (const char* method : {"march", "gauss", "field"}) {
+        EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--method", method, "--scattering",
+                       "multiple");
+    }
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--samples", "8");
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--orders", "2-");
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--g", "0.5");
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--aovs", "glowError");
-    EXPECT_REFUSED("--method field", "s", "-o", "a.exr", "--aovs", "error");
+    EXPECT_REFUSED("--method field", "s", "-o", "a.exr", "--model", "paper", "--aovs", "error");
     EXPECT_REFUSED("--method field", "s", "-o", "a.exr", "--method", "path", "--aovs", "cost");
     EXPECT_REFUSED("gauss or march", "s", "-o", "a.exr", "--method", "field", "--lights", "listed");
-    EXPECT_REFUSED("--method gauss", "s", "-o", "a.exr", "--lights", "all");
-    EXPECT_REFUSED("--method gauss", "s", "-o", "a.exr", "--visibility", "full");
+    EXPECT_REFUSED("--method march", "s", "-o", "a.exr", "--subdivisions", "5");
+    EXPECT_REFUSED("--method march", "s", "-o", "a.exr", "--model", "paper", "--march-order", "steps");
+    for (const char* lights : {"all", "listed"}) {
+        EXPECT_REFUSED("--method gauss", "s", "-o", "a.exr", "--method", "march", "--visibility",
+                       "full", "--lights", lights);
+    }
     for (const char* option : {"--subdivisions", "--light-cap"}) {
         EXPECT_REFUSED(option, "s", "-o", "a.exr", "--method", "path", option, "5");
     }

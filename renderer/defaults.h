@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a command line gets that leaves the model or the method open: decided here alone.
+#pragma once
+
+#include "settings.h"
+
+namespace nightcity {
+
+// --model single, the default: all windows, hidden by what stands before them, as panes.
+inline constexpr Model kSingleModel{.lights = Lights::all,
+                                    .visibility = Visibility::full,
+                                    .emitter = Emitter::pane,
+                                    .scattering = Scattering::single,
+                                    .surfaces = Surfaces::dim};
+
+// The fastest method that knows the model and holds the tolerance. What it says of a pixel
+// must not depend on how many are asked for: neither frames nor pixels nor tiles decide.
+inline Method defaultMethod(const RenderSettings& settings) {
+    if (settings.model.scattering == Scattering::multiple) {
+        return Method::path;
+    }
+    const bool isFine = settings.tolerance.value_or(kFieldTolerance) < kFieldTolerance;
+    if (settings.model.lights == Lights::listed || settings.reach || isFine) {
+        return Method::gauss;
+    }
+    return Method::field;
+}
+
+}  // namespace nightcity
