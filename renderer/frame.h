@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,9 @@ struct RenderStatistics {
     std::uint32_t lightPages = 0;
     std::string lightStorage;       // "uniform" or "storage", as it was, not as asked
     std::string device;
-    std::uint64_t deviceMemoryBytes = 0;
+    std::uint64_t deviceMemoryBytes = 0;  // after the last render call
+    std::uint64_t devicePeakBytes = 0;    // the most at any time
+    std::map<std::string, std::uint64_t> deviceMemory;  // bytes by name, after the last render call
     std::uint64_t farFieldBytes = 0;     // of these, for Method::field
     std::uint64_t farFieldBricks = 0;
 };

@@ -134,7 +134,9 @@ public:
         statistics_.frameMilliseconds = cost.milliseconds;
         statistics_.passes = std::move(cost.passes);
         statistics_.lightEvaluations = cost.lightEvaluations;
-        statistics_.deviceMemoryBytes = device_.allocatedBytes();
+        statistics_.deviceMemoryBytes = device_.ledger().bytes();
+        statistics_.devicePeakBytes = device_.ledger().peakBytes();
+        statistics_.deviceMemory = device_.ledger().byName();
         instance_.throwIfMessages();
     }
 

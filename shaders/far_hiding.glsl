@@ -93,10 +93,10 @@ bool findFaces(FarLight light, vec3 way, vec3 brickCentre, vec3 brickHalf, out F
     return true;
 }
 
-// The light, or a part of it, that stands for it: three levels down at most, by three bits.
+// The light, or a part of it, that stands for it: kPartLevels down at most, by as many bits.
 vec3 partOf(uint index, uint bits) {
     FarLight light = FarLightArray(bakeTable.lights).at[index];
-    for (uint level = 0u; level < 3u && light.second != 0u; ++level) {
+    for (uint level = 0u; level < kPartLevels && light.second != 0u; ++level) {
         index = (bits >> level & 1u) == 0u ? index + 1u : light.second;
         light = FarLightArray(bakeTable.lights).at[index];
     }

@@ -13,11 +13,7 @@
 
 layout(local_size_x = kGroupSize) in;
 
-const float kFullSpread = 20.0;     // near radii, up to which the spread is that of the table
-const float kLargestSpread = 0.4;
 const float kCornerShare = 0.4;
-const float kBlurredReach = 2.67;
-const uint kBlurredScale = 1u;      // of bricks whose nodes are too far apart for single windows
 const uint kLargestHiddenFrom = 1u; // scale of bricks that one face often hides from a light
 
 // Lights still to be looked at. A round takes the last kGroupSize of them and puts

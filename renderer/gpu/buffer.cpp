@@ -101,7 +101,8 @@ void Buffer::allocate(const std::string& name, MemoryKind kind) {
           name + ", " + mebibytes(requirements.size));
     memory_ = {device_->get(), memory};
     allocated_ = requirements.size;
-    device_->countAllocation(static_cast<int64_t>(allocated_));
+    device_->ledger().add(name, allocated_);
+    name_ = name;
     check(vkBindBufferMemory(device_->get(), buffer_.get(), memory, 0), "vkBindBufferMemory",
           name);
     constexpr VkMemoryPropertyFlags kHost =
@@ -121,6 +122,7 @@ Buffer::Buffer(Buffer&& other) noexcept {
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(bytes_, other.bytes_);
+    std::swap(name_, other.name_);
     std::swap(allocated_, other.allocated_);
     std::swap(address_, other.address_);
     std::swap(mapped_, other.mapped_);
@@ -132,7 +134,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 
 Buffer::~Buffer() {
     if (device_ != nullptr) {
-        device_->countAllocation(-static_cast<int64_t>(allocated_));
+        device_->ledger().remove(name_, allocated_);
     }
 }
 

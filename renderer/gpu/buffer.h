@@ -46,6 +46,7 @@ private:
     Handle<VkDeviceMemory, vkFreeMemory> memory_;  // outlives the buffer bound to it
     Handle<VkBuffer, vkDestroyBuffer> buffer_;
     uint64_t bytes_ = 0;
+    std::string name_;
     uint64_t allocated_ = 0;
     VkDeviceAddress address_ = 0;
     void* mapped_ = nullptr;

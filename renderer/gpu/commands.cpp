@@ -70,12 +70,12 @@ double Commands::run(const char* what, const std::function<void(VkCommandBuffer)
     return wall.count();
 }
 
-void Commands::upload(Buffer& target, const void* data, uint64_t bytes) {
+void Commands::upload(Buffer& target, const void* data, uint64_t bytes, uint64_t offset) {
     if (bytes == 0) {
         return;
     }
     if (target.mapped() != nullptr) {
-        std::memcpy(target.mapped(), data, bytes);
+        std::memcpy(static_cast<char*>(target.mapped()) + offset, data, bytes);
         return;
     }
     if (!staging_) {
@@ -85,7 +85,7 @@ void Commands::upload(Buffer& target, const void* data, uint64_t bytes) {
         const uint64_t piece = std::min(kStagingBytes, bytes - done);
         std::memcpy(staging_.mapped(), static_cast<const char*>(data) + done, piece);
         run("upload", [&](VkCommandBuffer commands) {
-            const VkBufferCopy copy{0, done, piece};
+            const VkBufferCopy copy{0, offset + done, piece};
             vkCmdCopyBuffer(commands, staging_.get(), target.get(), 1, &copy);
             computeBarrier(commands);
         });

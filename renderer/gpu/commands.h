@@ -21,8 +21,8 @@ public:
     double run(const char* what, const std::function<void(VkCommandBuffer)>& record);
 
     // Fills `target` from the host: in place where it is mapped, else through a staging buffer,
-    // in pieces of at most 16 MiB.
-    void upload(Buffer& target, const void* data, uint64_t bytes);
+    // in pieces of at most 16 MiB. `offset`: into the target, bytes.
+    void upload(Buffer& target, const void* data, uint64_t bytes, uint64_t offset = 0);
 
 private:
     Device& device_;

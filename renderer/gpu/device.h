@@ -9,6 +9,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include "gpu/memory_ledger.h"
 #include "gpu/physical_device.h"
 
 namespace nightcity::gpu {
@@ -60,9 +61,8 @@ public:
     // Shows up in validation messages and debuggers.
     void setName(VkObjectType type, uint64_t object, const std::string& name) const;
 
-    // Bytes of all buffers that are alive.
-    uint64_t allocatedBytes() const { return allocatedBytes_; }
-    void countAllocation(int64_t bytes) { allocatedBytes_ += static_cast<uint64_t>(bytes); }
+    const MemoryLedger& ledger() const { return ledger_; }
+    MemoryLedger& ledger() { return ledger_; }
 
 private:
     void createDevice();
@@ -77,7 +77,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
     bool unifiedMemory_ = false;
-    uint64_t allocatedBytes_ = 0;
+    MemoryLedger ledger_;
 };
 
 }  // namespace nightcity::gpu

@@ -57,7 +57,8 @@ void Image::allocate(const std::string& name) {
     check(vkAllocateMemory(device_->get(), &info, nullptr, &memory), "vkAllocateMemory", name);
     memory_ = {device_->get(), memory};
     allocated_ = requirements.size;
-    device_->countAllocation(static_cast<int64_t>(allocated_));
+    device_->ledger().add(name, allocated_);
+    name_ = name;
     check(vkBindImageMemory(device_->get(), image_.get(), memory, 0), "vkBindImageMemory", name);
 }
 
@@ -82,13 +83,14 @@ Image& Image::operator=(Image&& other) noexcept {
     std::swap(memory_, other.memory_);
     std::swap(image_, other.image_);
     std::swap(view_, other.view_);
+    std::swap(name_, other.name_);
     std::swap(allocated_, other.allocated_);
     return *this;
 }
 
 Image::~Image() {
     if (device_ != nullptr) {
-        device_->countAllocation(-static_cast<int64_t>(allocated_));
+        device_->ledger().remove(name_, allocated_);
     }
 }
 

@@ -35,6 +35,7 @@ private:
     Handle<VkDeviceMemory, vkFreeMemory> memory_;  // outlives the image bound to it
     Handle<VkImage, vkDestroyImage> image_;
     Handle<VkImageView, vkDestroyImageView> view_;
+    std::string name_;
     uint64_t allocated_ = 0;
 };
 

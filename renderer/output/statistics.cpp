@@ -107,6 +107,8 @@ void writeStatistics(const std::filesystem::path& file, const StatisticsReport& 
         {"timing", times},
         {"memory",
          {{"device_bytes", last.deviceMemoryBytes},
+          {"device_peak_bytes", last.devicePeakBytes},
+          {"device_bytes_by_name", last.deviceMemory},
           {"far_field_bytes", last.farFieldBytes},
           {"host_peak_bytes", peakHostBytes()}}},
         {"light_storage", last.lightStorage},

@@ -12,8 +12,8 @@
 #include "far_sides_spirv.h"
 #include "far_sight_spirv.h"
 #include "far_sum_spirv.h"
+#include "passes/box_nodes.h"
 #include "passes/far_media.h"
-#include "passes/occluder_tree.h"
 #include "passes/pass_pipelines.h"
 
 namespace nightcity {
@@ -79,7 +79,9 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
         alignLattice(scene.mediaBoxes, settings.spacing, settings.emitter);
     layout_ = layoutFarField(
         media, {nodes, settings_.eyes, settings.mostBricks, settings.memoryBytes});
-    lights_ = buildFarLights(scene, media, settings.emitter);
+    const FarCut cut(layout_, {settings.emitter, settings.nearRadius, settings.spread});
+    lights_ = buildFarLights(scene, media, cut, settings.emitter);
+    scene.dropPages();
     bake_.skyHeight = skyHeight(scene);
     for (const FarMedium& medium : media) {
         bake_.thickest = std::max(bake_.thickest, medium.extinction);
@@ -128,7 +130,7 @@ void FarFieldGrid::uploadLayout(std::span<const FarMedium> media) {
             bounds.push_back({glm::dvec3(medium.lo), glm::dvec3(medium.hi)});
         }
         bake_.mediaNodes =
-            uploadArray<BoxNode>("far media tree", packBoxTree(BoxTree(std::move(bounds))));
+            uploadArray<BoxNode>("far media tree", buildBoxNodes(bounds));
     }
 }
 
@@ -239,6 +241,7 @@ void FarFieldGrid::findSides(VkDeviceAddress sceneTable, const BakeProgress& pro
 void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
                                    VkDeviceAddress sceneTable, const BakeProgress& progress) {
     const std::vector<vec3> emission = emissionOf(lights_, scene, windowOn);
+    scene.dropPages();
     if (hasSums_) {
         passTimes_.clear();
     }

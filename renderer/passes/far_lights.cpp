@@ -12,6 +12,7 @@ namespace nightcity {
 namespace {
 
 constexpr std::size_t kRoots = 128;  // about so many lights start a walk
+constexpr std::size_t kRootLevels = 8;  // at most so many below the root
 // Below the roots: far_sight.comp's stack holds as many rounds of a group.
 constexpr std::size_t kMostLevels = (kFarStack - 2 * kRoots) / 256;
 // Windows are parted by their normals while a component of those ranges over more.
@@ -40,10 +41,14 @@ FarEmitter emitterOf(const Window& window, uint index, Emitter model) {
 
 class TreeBuilder {
 public:
-    TreeBuilder(std::vector<FarEmitter> emitters, std::span<const FarMedium> media, FarLights& tree)
-        : emitters_(std::move(emitters)), media_(media), mediaTree_(boundsOf(media)), tree_(tree) {
-        tree_.lights.reserve(2 * emitters_.size());
-        build(0, emitters_.size());
+    TreeBuilder(std::vector<FarEmitter> emitters, std::span<const FarMedium> media,
+                const FarCut& cut, FarLights& tree)
+        : emitters_(std::move(emitters)),
+          media_(media),
+          mediaTree_(boundsOf(media)),
+          cut_(cut),
+          tree_(tree) {
+        build(0, emitters_.size(), 0, kPartLevels);
     }
 
 private:
@@ -132,21 +137,37 @@ private:
         return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     }
 
-    void build(std::size_t first, std::size_t end) {
+    // `parts`: levels to go below here where the light above is not opened.
+    void build(std::size_t first, std::size_t end, std::size_t level, uint parts) {
         const std::size_t index = tree_.lights.size();
         tree_.lights.push_back(describe(first, end));
         if (end - first == 1) {
             return;
         }
+        const bool isOpen =
+            parts == kPartLevels && (level < kRootLevels || cut_.mayOpen(tree_.lights[index]));
+        if (!isOpen && parts == 0) {
+            bundle(uint(index), first, end);
+            return;
+        }
+        const uint below = isOpen ? parts : parts - 1;
         const std::size_t second = split(first, end);
-        build(first, second);
+        build(first, second, level + 1, below);
         tree_.lights[index].second = uint(tree_.lights.size());
-        build(second, end);
+        build(second, end, level + 1, below);
+    }
+
+    void bundle(uint light, std::size_t first, std::size_t end) {
+        tree_.bundles.push_back({light, uint(tree_.bundled.size()), uint(end - first)});
+        for (std::size_t i = first; i < end; ++i) {
+            tree_.bundled.push_back(emitters_[i].window);
+        }
     }
 
     std::vector<FarEmitter> emitters_;
     std::span<const FarMedium> media_;
     BoxTree mediaTree_;
+    const FarCut& cut_;
     FarLights& tree_;
 };
 
@@ -158,7 +179,8 @@ std::size_t levelsBelow(const FarLights& tree, uint light) {
 
 std::vector<uint> chooseRoots(const FarLights& tree) {
     std::vector<uint> roots{0};
-    for (bool more = true; more && roots.size() < kRoots;) {
+    bool more = true;
+    for (std::size_t level = 0; more && level < kRootLevels && roots.size() < kRoots; ++level) {
         more = false;
         std::vector<uint> next;
         for (const uint light : roots) {
@@ -177,7 +199,7 @@ std::vector<uint> chooseRoots(const FarLights& tree) {
 }  // namespace
 
 FarLights buildFarLights(const FlatScene& scene, std::span<const FarMedium> media,
-                         Emitter emitter) {
+                         const FarCut& cut, Emitter emitter) {
     FarLights tree;
     std::vector<FarEmitter> emitters;
     for (uint i = 0; i < scene.windows.size(); ++i) {
@@ -190,7 +212,7 @@ FarLights buildFarLights(const FlatScene& scene, std::span<const FarMedium> medi
     if (emitters.empty()) {
         return tree;
     }
-    TreeBuilder(std::move(emitters), media, tree);
+    TreeBuilder(std::move(emitters), media, cut, tree);
     tree.roots = chooseRoots(tree);
     for (const uint root : tree.roots) {
         if (levelsBelow(tree, root) > kMostLevels) {
@@ -202,13 +224,23 @@ FarLights buildFarLights(const FlatScene& scene, std::span<const FarMedium> medi
 
 std::vector<vec3> emissionOf(const FarLights& tree, const FlatScene& scene,
                              std::span<const std::uint8_t> windowOn) {
+    const auto ofWindow = [&](uint index) {
+        const Window& window = scene.windows[index];
+        return windowOn[index] != 0 ? window.power * window.colour : vec3(0);
+    };
     std::vector<vec3> emission(tree.lights.size(), vec3(0));
+    auto bundle = tree.bundles.rbegin();
     for (std::size_t i = emission.size(); i-- > 0;) {
         const FarLight& light = tree.lights[i];
         if (light.second != 0) {
             emission[i] = emission[i + 1] + emission[light.second];
-        } else if (windowOn[light.window] != 0) {
-            emission[i] = scene.windows[light.window].power * scene.windows[light.window].colour;
+        } else if (bundle != tree.bundles.rend() && bundle->light == i) {
+            for (uint w = 0; w < bundle->windowCount; ++w) {
+                emission[i] += ofWindow(tree.bundled[bundle->firstWindow + w]);
+            }
+            ++bundle;
+        } else {
+            emission[i] = ofWindow(light.window);
         }
     }
     return emission;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "passes/box_nodes.h"
 #include "passes/far_media.h"
 #include "passes/haze_tree.h"
 #include "passes/light_tree.h"
@@ -80,6 +81,7 @@ void GpuScene::syncGeometry(const FlatScene& scene) {
     farFieldSettings_.reset();
     uniformHaze_ = false;
     uploadGeometry(scene);
+    scene.dropPages();
     uploadOccluders(scene);
     uploadMediaTree(scene);
     uploadHaze(scene);
@@ -123,7 +125,7 @@ void GpuScene::uploadMediaTree(const FlatScene& scene) {
     for (const MediaBox& box : scene.mediaBoxes) {
         boxes.push_back({glm::dvec3(box.lo), glm::dvec3(box.hi)});
     }
-    contents_.mediaNodes = uploadArray<BoxNode>("media tree", packBoxTree(BoxTree(boxes)));
+    contents_.mediaNodes = uploadArray<BoxNode>("media tree", buildBoxNodes(boxes));
     uniformHaze_ = nightcity::isHazeUniform(scene);
 }
 
@@ -145,20 +147,38 @@ void GpuScene::uploadPlanes(const FlatScene& scene, const FacadeTable& facades) 
 void GpuScene::uploadNearField(const FlatScene& scene, const FarFieldSettings& settings) {
     NearTable table{};
     table.radius = farField_.table().nearRadius;
-    near_ = buildNearPanes(scene, settings.emitter, settings.visibility, table.radius);
+    const NearPanes near(scene, settings.emitter, settings.visibility, table.radius);
+    near_ = near.extremes();
     nearField_.clear();
-    const auto keep = [&](const char* name, const void* data, std::uint64_t bytes) {
-        nearField_.emplace_back(device_, name, bytes, gpu::MemoryKind::device);
-        commands_.upload(nearField_.back(), data, bytes);
+    const auto keep = [&](gpu::Buffer buffer) {
+        nearField_.push_back(std::move(buffer));
         return addressWords(nearField_.back().address());
     };
-    table.panes = keep("near panes", near_.panes.data(), near_.panes.size() * sizeof(NearPane));
-    if (!near_.tree.empty()) {
-        table.tree = keep("near tree", near_.tree.data(), near_.tree.size() * sizeof(BoxNode));
+    if (!scene.windows.empty()) {
+        table.tree = keep(upload<BoxNode>("near tree", near.buildTree(), 0));
     }
-    contents_.nearField = keep("near table", &table, sizeof(NearTable));
-    near_.panes = {};
-    near_.tree = {};
+    scene.dropPages();
+    table.panes = keep(uploadNearPanes(scene, near));
+    contents_.nearField = keep(upload<NearTable>("near table", {&table, 1}, 0));
+}
+
+// Piece by piece, so that no second copy of all is made.
+gpu::Buffer GpuScene::uploadNearPanes(const FlatScene& scene, const NearPanes& near) {
+    constexpr std::size_t kPiece = 1u << 16;
+    gpu::Buffer buffer(device_, "near panes", scene.windows.size() * sizeof(NearPane),
+                       gpu::MemoryKind::device);
+    std::vector<NearPane> piece;
+    for (std::size_t first = 0; first < scene.windows.size(); first += kPiece) {
+        piece.clear();
+        const std::size_t end = std::min(first + kPiece, scene.windows.size());
+        for (std::size_t i = first; i < end; ++i) {
+            piece.push_back(near.pane(i));
+        }
+        commands_.upload(buffer, piece.data(), piece.size() * sizeof(NearPane),
+                         first * sizeof(NearPane));
+        scene.dropPages();
+    }
+    return buffer;
 }
 
 void GpuScene::uploadOccluders(const FlatScene& scene) {
@@ -252,7 +272,9 @@ void GpuScene::syncWindowState(const FlatScene& scene, int frame,
     if (settings.method == Method::path || settings.method == Method::gauss || lit) {
         uploadLightTree(scene, on, settings.model.emitter);
     }
-    lights_.upload(packLights(scene, on, settings.lightCap), settings.lightStorage);
+    if (settings.method == Method::march || settings.method == Method::gauss) {
+        lights_.upload(packLights(scene, on, settings.lightCap), settings.lightStorage);
+    }
     contents_.windowOn = addressWords(windowOn_.address());
     contents_.marchMedia = addressWords(lights_.mediaAddress());
     writeTable();
@@ -260,15 +282,19 @@ void GpuScene::syncWindowState(const FlatScene& scene, int frame,
 
 void GpuScene::syncFarField(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
                             const FarFieldSettings& settings, const BakeProgress& progress) {
-    if (farFieldSettings_ != settings) {
+    const bool isNew = farFieldSettings_ != settings;
+    if (isNew) {
         farFieldSettings_.reset();
+        nearField_.clear();
         farField_.syncGeometry(scene, settings, tableAddress(), progress);
-        farFieldSettings_ = settings;
         contents_.farField = addressWords(farField_.tableAddress());
-        uploadNearField(scene, settings);
-        writeTable();
     }
     farField_.syncWindowState(scene, windowOn, tableAddress(), progress);
+    if (isNew) {  // after the bake, which has no need of it: so the two never share the memory
+        uploadNearField(scene, settings);
+        writeTable();
+        farFieldSettings_ = settings;
+    }
 }
 
 void GpuScene::uploadState(gpu::Buffer& buffer, const char* name, const void* data,

@@ -67,6 +67,7 @@ private:
     void uploadHaze(const FlatScene& scene);
     void uploadPlanes(const FlatScene& scene, const FacadeTable& facades);
     void uploadNearField(const FlatScene& scene, const FarFieldSettings& settings);
+    gpu::Buffer uploadNearPanes(const FlatScene& scene, const NearPanes& near);
     void buildTriangles(const FlatScene& scene);
     void buildMedia(const FlatScene& scene);
     void buildLoosePanes(const FlatScene& scene);
@@ -97,7 +98,7 @@ private:
     gpu::Buffer table_;
     SceneTable contents_{};
     bool uniformHaze_ = false;
-    NearPanes near_;  // without the arrays, which are uploaded
+    NearExtremes near_;
 };
 
 // The two words of an address as the shaders take them.

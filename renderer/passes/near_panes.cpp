@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "passes/occluder_tree.h"
+#include "passes/box_nodes.h"
 #include "scene/box_tree.h"
 #include "scene/convex_faces.h"
 #include "transport/near_window.h"
@@ -55,8 +55,25 @@ NearPane nearPane(const Window& window, Emitter emitter) {
     return pane;
 }
 
+// Of the part of the ball about a pane that it lights. Along an axis it ends at the ball where the
+// normal points that way, else at the rim of the pane's plane, `back` m behind it.
+Bounds reachOf(const NearPane& pane, double radius, double back) {
+    const glm::dvec3 normal = normalOf(pane);
+    Bounds bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double rim =
+            std::min(radius, radius * std::sqrt(std::max(0.0, 1 - normal[axis] * normal[axis])) +
+                                 back * std::abs(normal[axis]));
+        bounds.lo[axis] = pane.centre[axis] - (normal[axis] <= 0 ? radius : rim);
+        bounds.hi[axis] = pane.centre[axis] + (normal[axis] >= 0 ? radius : rim);
+    }
+    return bounds;
+}
+
+}  // namespace
+
 // The walls that stand close behind windows.
-class Walls {
+class NearPanes::Walls {
 public:
     explicit Walls(const FlatScene& scene) : faces_(scene), tree_(faces_.bounds()) {}
 
@@ -98,56 +115,49 @@ private:
     BoxTree tree_;
 };
 
-// Of the part of the ball about a pane that it lights. Along an axis it ends at the ball where the
-// normal points that way, else at the rim of the pane's plane, `back` m behind it.
-Bounds reachOf(const NearPane& pane, double radius, double back) {
-    const glm::dvec3 normal = normalOf(pane);
-    Bounds bounds;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double rim =
-            std::min(radius, radius * std::sqrt(std::max(0.0, 1 - normal[axis] * normal[axis])) +
-                                 back * std::abs(normal[axis]));
-        bounds.lo[axis] = pane.centre[axis] - (normal[axis] <= 0 ? radius : rim);
-        bounds.hi[axis] = pane.centre[axis] + (normal[axis] >= 0 ? radius : rim);
-    }
-    return bounds;
-}
-
-}  // namespace
-
-NearKinds NearPanes::kinds(double tolerance) const {
+NearKinds NearExtremes::kinds(double tolerance) const {
     // From 0.5 % on a ray that does not graze needs no cuts (transport/near_window.h).
     return {emitter, hasPoints, tolerance < 0.005, opticalHalf <= tolerance};
 }
 
-NearPanes buildNearPanes(const FlatScene& scene, Emitter emitter, Visibility visibility,
-                         float radius) {
-    NearPanes near;
-    near.emitter = emitter;
-    std::optional<Walls> walls;
+NearPanes::NearPanes(const FlatScene& scene, Emitter emitter, Visibility visibility, float radius)
+    : scene_(scene), emitter_(emitter), radius_(radius) {
     if (emitter == Emitter::isotropic && visibility == Visibility::full) {
-        walls.emplace(scene);
+        walls_ = std::make_unique<Walls>(scene);
     }
-    std::vector<Bounds> bounds;
+}
+
+NearPanes::~NearPanes() = default;
+
+NearPane NearPanes::pane(std::size_t window) const {
+    NearPane pane = nearPane(scene_.windows[window], emitter_);
+    if (walls_ && !isSphere(pane)) {
+        pane.halfV = float(walls_->behind(pane).value_or(double(pane.halfV)));
+    }
+    return pane;
+}
+
+NearExtremes NearPanes::extremes() const {
+    NearExtremes found;
+    found.emitter = emitter_;
     double longest = 0;
-    for (const Window& window : scene.windows) {
-        NearPane& pane = near.panes.emplace_back(nearPane(window, emitter));
-        if (walls && !isSphere(pane)) {
-            pane.halfV = float(walls->behind(pane).value_or(double(pane.halfV)));
-        }
-        near.hasPoints |= emitter != Emitter::pane || isSphere(pane);
+    for (const Window& window : scene_.windows) {
+        found.hasPoints |= emitter_ != Emitter::pane || (window.flags & kWindowSphere) != 0;
         longest = std::max(longest, std::hypot(double(glm::length(window.halfU)),
                                                double(glm::length(window.halfV))));
-        const bool isPane = emitter == Emitter::pane && !isSphere(pane);
-        bounds.push_back(reachOf(pane, radius, isPane ? 0 : double(pane.halfV)));
     }
-    for (const MediaBox& box : scene.mediaBoxes) {
-        near.opticalHalf = std::max(near.opticalHalf, longest * double(box.extinction));
+    for (const MediaBox& box : scene_.mediaBoxes) {
+        found.opticalHalf = std::max(found.opticalHalf, longest * double(box.extinction));
     }
-    if (!bounds.empty()) {
-        near.tree = packBoxTree(BoxTree(std::move(bounds)));
-    }
-    return near;
+    return found;
+}
+
+std::vector<BoxNode> NearPanes::buildTree() const {
+    return buildBoxNodes(scene_.windows.size(), [&](std::uint32_t i) {
+        const NearPane found = pane(i);
+        const bool isPane = emitter_ == Emitter::pane && !isSphere(found);
+        return reachOf(found, double(radius_), isPane ? 0 : double(found.halfV));
+    });
 }
 
 }  // namespace nightcity

@@ -5,6 +5,7 @@
 // (shaders/shared/glow.h). Does not depend on which windows are on. No Vulkan.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "dispatch.h"
@@ -24,9 +25,8 @@ struct NearKinds {
     bool operator==(const NearKinds&) const = default;
 };
 
-struct NearPanes {
-    std::vector<NearPane> panes;  // one a window
-    std::vector<BoxNode> tree;    // over what each one lights of its ball of the radius
+// What of all of them decides their kinds.
+struct NearExtremes {
     Emitter emitter = Emitter::pane;
     bool hasPoints = false;
     double opticalHalf = 0;  // half the longest diagonal in the densest haze
@@ -35,9 +35,27 @@ struct NearPanes {
     NearKinds kinds(double tolerance) const;
 };
 
-// `radius`: m, the near radius. With full visibility an isotropic window on a wall lights
-// nothing behind it; other walls within the radius hide nothing.
-NearPanes buildNearPanes(const FlatScene& scene, Emitter emitter, Visibility visibility,
-                         float radius);
+// Made one by one, for a city has more of them than it should hold twice.
+class NearPanes {
+public:
+    // `radius`: m, the near radius. With full visibility an isotropic window on a wall lights
+    // nothing behind it; other walls within the radius hide nothing. The scene must outlive this.
+    NearPanes(const FlatScene& scene, Emitter emitter, Visibility visibility, float radius);
+    NearPanes(NearPanes&&) = delete;
+    ~NearPanes();
+
+    NearPane pane(std::size_t window) const;
+    NearExtremes extremes() const;
+    // Over what each one lights of its ball of the radius.
+    std::vector<BoxNode> buildTree() const;
+
+private:
+    class Walls;
+
+    const FlatScene& scene_;
+    Emitter emitter_;
+    float radius_;
+    std::unique_ptr<const Walls> walls_;  // where they are asked for
+};
 
 }  // namespace nightcity

@@ -2,25 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/occluder_tree.h"
 
-#include <cmath>
-#include <limits>
-
+#include "passes/box_nodes.h"
 #include "scene/convex_faces.h"
 
 namespace nightcity {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-float atMost(double value) {
-    const auto nearest = static_cast<float>(value);
-    return nearest <= value ? nearest : std::nextafter(nearest, -kInfinity);
-}
-
-float atLeast(double value) {
-    const auto nearest = static_cast<float>(value);
-    return nearest >= value ? nearest : std::nextafter(nearest, kInfinity);
-}
 
 OccluderFace faceRecord(std::span<const glm::dvec3> corners, std::size_t firstCorner) {
     const glm::dvec3 area = areaVector(corners);
@@ -34,24 +20,10 @@ OccluderFace faceRecord(std::span<const glm::dvec3> corners, std::size_t firstCo
 
 }  // namespace
 
-std::vector<BoxNode> packBoxTree(const BoxTree& tree) {
-    std::vector<BoxNode> nodes;
-    for (const BoxTree::DepthFirstNode& from : tree.depthFirst()) {
-        const Bounds& bounds = from.bounds;
-        BoxNode node{};
-        node.lo = {atMost(bounds.lo.x), atMost(bounds.lo.y), atMost(bounds.lo.z)};
-        node.hi = {atLeast(bounds.hi.x), atLeast(bounds.hi.y), atLeast(bounds.hi.z)};
-        node.next = from.next;
-        node.item = from.box;
-        nodes.push_back(node);
-    }
-    return nodes;
-}
-
 OccluderTree buildOccluderTree(const FlatScene& scene) {
     const ConvexFaces faces(scene);
     OccluderTree tree;
-    tree.nodes = packBoxTree(BoxTree(faces.bounds()));
+    tree.nodes = buildBoxNodes(faces.bounds());
     tree.faceOfTriangle.assign(faces.ofTriangle().begin(), faces.ofTriangle().end());
     for (std::uint32_t i = 0; i < faces.size(); ++i) {
         tree.faces.push_back(faceRecord(faces.face(i), tree.corners.size()));

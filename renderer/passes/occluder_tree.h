@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "dispatch.h"
-#include "scene/box_tree.h"
 #include "scene/flat_scene.h"
 
 namespace nightcity {
@@ -22,8 +21,5 @@ struct OccluderTree {
 };
 
 OccluderTree buildOccluderTree(const FlatScene& scene);
-
-// The tree as the shaders walk it.
-std::vector<BoxNode> packBoxTree(const BoxTree& tree);
 
 }  // namespace nightcity

@@ -68,29 +68,4 @@ void BoxTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count
     split(left + 1, first + half, count - half);
 }
 
-void BoxTree::appendDepthFirst(std::uint32_t node, std::vector<DepthFirstNode>& flat) const {
-    const Node& from = nodes_[node];
-    const std::size_t place = flat.size();
-    if (from.count != 1) {
-        flat.push_back({from.bounds, 0, kNone});
-    }
-    if (from.count == 0) {
-        appendDepthFirst(from.first, flat);
-        appendDepthFirst(from.first + 1, flat);
-    }
-    for (std::uint32_t i = from.first; i < from.first + from.count; ++i) {
-        const auto after = std::uint32_t(flat.size() + 1);
-        flat.push_back({boxes_[order_[i]], after, order_[i]});
-    }
-    flat[place].next = std::uint32_t(flat.size());
-}
-
-std::vector<BoxTree::DepthFirstNode> BoxTree::depthFirst() const {
-    std::vector<DepthFirstNode> flat;
-    if (!nodes_.empty()) {
-        appendDepthFirst(0, flat);
-    }
-    return flat;
-}
-
 }  // namespace nightcity

@@ -46,14 +46,6 @@ public:
 
     const Bounds& box(std::uint32_t index) const { return boxes_[index]; }
 
-    // The tree for readers without a stack: a node, then what it holds, one node a box.
-    struct DepthFirstNode {
-        Bounds bounds;
-        std::uint32_t next;  // the node that follows when what this one holds is skipped
-        std::uint32_t box;   // of a leaf; kNone: not one
-    };
-    std::vector<DepthFirstNode> depthFirst() const;
-
     // visit(index) for every box that touches the query.
     template <typename Visit>
     void visitTouching(const Bounds& query, Visit&& visit) const {
@@ -108,7 +100,6 @@ private:
     };
 
     void split(std::uint32_t node, std::uint32_t first, std::uint32_t count);
-    void appendDepthFirst(std::uint32_t node, std::vector<DepthFirstNode>& flat) const;
 
     std::vector<Bounds> boxes_;
     std::vector<std::uint32_t> order_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "errors.h"
+#include "scene/mapped_file.h"
 
 namespace nightcity {
 
@@ -23,6 +24,12 @@ const CameraTrack& FlatScene::camera(const std::string& name) const {
     }
     throw UsageError("no camera is called '" + name + "'; this scene has " +
                      (names.empty() ? "none: add a camera to the stage and export again" : names));
+}
+
+void FlatScene::dropPages() const {
+    if (file) {
+        file->dropPages();
+    }
 }
 
 std::vector<std::uint8_t> FlatScene::windowsOn(int frame) const {

@@ -17,6 +17,8 @@
 
 namespace nightcity {
 
+class MappedFile;
+
 // A camera over frames; one frame where it does not move.
 struct CameraTrack {
     std::string name;
@@ -65,11 +67,14 @@ struct FlatScene {
     std::string hash;                // 32 hexadecimal digits
     std::string generator;
     std::vector<std::string> notes;
-    std::shared_ptr<const void> storage;  // keeps the spans alive
+    std::shared_ptr<const MappedFile> file;  // holds the spans; none: whoever made them does
 
     const CameraTrack& camera(const std::string& name) const;  // throws UsageError with the names
     // Lit windows at a frame, one byte each (docs/scene_format.md, window_event).
     std::vector<std::uint8_t> windowsOn(int frame) const;
+    // Memory of the file that was read goes back to the system; what is read again comes again.
+    // To be called after each pass over large arrays, so that these count once: on the device.
+    void dropPages() const;
 };
 
 }  // namespace nightcity

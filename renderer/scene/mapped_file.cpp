@@ -46,6 +46,12 @@ MappedFile::MappedFile(const std::filesystem::path& file) {
     bytes_ = {static_cast<const std::byte*>(start), size};
 }
 
+void MappedFile::dropPages() const {
+    if (!bytes_.empty()) {
+        ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_DONTNEED);
+    }
+}
+
 MappedFile::~MappedFile() {
     if (!bytes_.empty()) {
         ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());

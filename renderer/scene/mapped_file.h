@@ -19,6 +19,8 @@ public:
     MappedFile& operator=(const MappedFile&) = delete;
 
     std::span<const std::byte> bytes() const { return bytes_; }  // starts on a page
+    // Gives back the memory that holds what was read so far; it is read again when it is needed.
+    void dropPages() const;
 
 private:
     std::span<const std::byte> bytes_;

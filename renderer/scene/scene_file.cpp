@@ -83,11 +83,12 @@ FlatScene loadScene(const std::filesystem::path& folder) {
     scene.hash = contentHash(manifestBytes.bytes());
     scene.generator = std::move(manifest.generator);
     scene.notes = std::move(manifest.notes);
-    scene.storage = binary;
+    scene.file = binary;
     checkGeometry(scene, binaryFile);
     checkBuildings(scene, binaryFile);
     checkWindows(scene, binaryFile);
     checkMedia(scene, binaryFile);
+    scene.dropPages();
     return scene;
 }
 

@@ -30,10 +30,19 @@ NIGHTCITY_CONST uint kWayWords = 5u;        // of a layer of them
 NIGHTCITY_CONST float kOnFace = 2e-3f;
 NIGHTCITY_CONST float kClusterCos = 0.95f;  // of the widest cone of normals that is one direction
 
+// How bricks see lights (far_sight.comp; the host asks the same, passes/far_cut.h).
+NIGHTCITY_CONST float kFullSpread = 20.0f;  // near radii, up to which the spread is that of the table
+NIGHTCITY_CONST float kLargestSpread = 0.4f;
+NIGHTCITY_CONST float kBlurredReach = 2.67f;
+NIGHTCITY_CONST uint kBlurredScale = 1u;    // of bricks whose nodes are too far apart for single windows
+NIGHTCITY_CONST uint kPartLevels = 3u;      // of the tree below a light that parts of it are taken from
+
 // A node of the tree over all windows, lit or not. The first child of an inner node follows it.
+// kPartLevels below lights that no brick looks into it ends: what it ends in is a part of such a
+// light, and never asked for itself.
 struct FarLight {
     vec3 centre;    // m, of the bounds of its panes
-    uint second;    // the second child; 0: a window
+    uint second;    // the second child; 0: a window, or where the tree ends
     vec3 reach;     // m, half sides of the bounds
     uint window;    // into Window; of an inner node one of its windows
     vec3 axis;      // unit vector, the mean of the normals

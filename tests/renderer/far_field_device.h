@@ -35,7 +35,7 @@ public:
     std::vector<glm::vec4> fluenceAndError(std::span<const glm::vec3> places);
     // The bits of all nodes.
     std::vector<glm::uvec2> nodes();
-    std::uint64_t allocatedBytes() const { return device_.allocatedBytes(); }
+    std::uint64_t allocatedBytes() const { return device_.ledger().bytes(); }
     const FarFieldGrid& field() const { return scene_.farField(); }
     std::uint64_t nodeCount() const { return scene_.farField().nodeCount(); }
 

@@ -146,7 +146,7 @@ TEST_F(OnDevice, BuffersCarryBytesThereAndBack) {
     std::iota(sent.begin(), sent.end(), 7u);
     Buffer source(device_, "source", sent.size() * 4, MemoryKind::device);
     EXPECT_NE(source.address(), 0u);
-    EXPECT_GE(device_.allocatedBytes(), sent.size() * 4);
+    EXPECT_GE(device_.ledger().bytes(), sent.size() * 4);
     commands.upload(source, sent.data(), sent.size() * 4);
     const ReadableBuffer target(device_, "target", sent.size() * 4);
     const double milliseconds = commands.run("copy", [&](VkCommandBuffer recording) {
@@ -165,12 +165,12 @@ TEST_F(OnDevice, BuffersCarryBytesThereAndBack) {
 }
 
 TEST_F(OnDevice, MemoryIsCountedAndGivenBack) {
-    const uint64_t before = device_.allocatedBytes();
+    const uint64_t before = device_.ledger().bytes();
     {
         const Buffer buffer(device_, "short-lived", 1u << 20, MemoryKind::upload);
-        EXPECT_GE(device_.allocatedBytes(), before + (1u << 20));
+        EXPECT_GE(device_.ledger().bytes(), before + (1u << 20));
     }
-    EXPECT_EQ(device_.allocatedBytes(), before);
+    EXPECT_EQ(device_.ledger().bytes(), before);
 }
 
 TEST_F(OnDevice, ABufferBeyondTheLimitIsRefusedByName) {
