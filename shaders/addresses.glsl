@@ -56,4 +56,6 @@ layout(push_constant, scalar) uniform Push {
 #define sceneTable SceneReference(push.scene).table
 #define frameTable FrameReference(push.frame).table
 
+#define NIGHTCITY_GAUSS_PAIRS FloatArray(sceneTable.gaussPairs).at
+
 #endif

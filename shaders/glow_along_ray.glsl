@@ -10,16 +10,19 @@
 #include "near_field.glsl"
 #include "transport/constants.glsl"
 
-// Node spacings of the far field under two Gauss nodes.
-const float kFarStretch = 2.0;
-const float kGaussOfTwo = 0.211324865;  // the first node of two on (0, 1)
+// Node spacings of the far field a pair of Gauss nodes.
+const float kFarStretch = 4.0;
 // m: media nearer to each other along a ray have no gap between them.
 const float kMediaGap = 1e-3;
+// m, and as a share of the way: no haze is so thin, but a ray onto a roof or a wall that ends
+// where the haze does meets as much by rounding.
+const float kThinnest = 1e-4;
+const float kThinnestShare = 1e-6;
 
 // As runError has them: shares of the light and of the nodes' estimates, and of near panes in
 // tolerances. Chosen so that 99 of 100 pixels of paper-4x4 lie within (docs/accuracy.md).
-const float kErrorInCommon = 1.2e-3;
-const float kErrorOfFar = 1.4;
+const float kErrorInCommon = 0.8e-3;
+const float kErrorOfFar = 1.25;
 const float kErrorOfNear = 0.25;
 
 // A part of a ray in haze of one kind.
@@ -32,39 +35,44 @@ struct HazeRun {
     float farSamples;  // how many were taken
 };
 
-// Adds [begin, end] of the ray, in one medium, to a run. Brick by brick, and in each by pairs of
-// Gauss nodes.
+// Adds [begin, end] of the ray, in one medium, to a run. Brick by brick: inside one the field is
+// smooth, so that one Gauss rule serves for all of it, two nodes at a time.
 void addFar(FarFieldTable field, FieldRay ray, float begin, float end, inout HazeRun run) {
     BrickStep brick;
     vec3 start = vec3(0.0), pace = vec3(0.0);
-    float stretch = 0.0;
-    float left = 0.0;  // stretches in the brick
+    float span = 0.0;
+    int count = 0;  // nodes in the brick, even
+    int pair = 0;   // of them
     while (begin < end) {
-        if (left < 0.5) {
+        if (pair == 0) {
             brick = brickAfter(field, ray, begin);
-            float span = min(brick.end, end) - begin;
+            span = min(brick.end, end) - begin;
             float spacing = field.cellSide * brick.side / float(kBrickSteps);
-            left = max(ceil(span / (kFarStretch * spacing)), 1.0);
-            stretch = span / left;
+            count = 2 * int(clamp(ceil(span / (kFarStretch * spacing) - 0.01), 1.0,
+                                  0.5 * float(kGaussMost)));
             start = (ray.start - brick.corner) / brick.side;
             pace = ray.pace / brick.side;
         }
+        vec2 node = gaussNode(count, pair);
         vec4 sum = vec4(0.0);
         if (brick.index != kNone) {
             for (int k = 0; k < 2; ++k) {
-                float t = begin + (k == 0 ? kGaussOfTwo : 1.0 - kGaussOfTwo) * stretch;
+                float t = begin + (k == 0 ? node.x : 1.0 - node.x) * span;
                 sum += farSample(field, brick.index, start + t * pace) *
                        exp(run.extinction * (run.begin - t));
             }
         }
-        run.far += 0.5 * stretch * sum.rgb;
+        run.far += node.y * span * sum.rgb;
         if (kLedger) {
-            float error = 0.5 * stretch * sum.a;
+            float error = node.y * span * sum.a;
             run.farSquares += error * error;
             run.farSamples += brick.index != kNone ? 2.0 : 0.0;
         }
-        left -= 1.0;
-        begin = left < 0.5 ? max(brick.end, begin + stretch) : begin + stretch;
+        ++pair;
+        if (2 * pair == count) {
+            pair = 0;
+            begin = max(brick.end, begin + span);
+        }
     }
 }
 
@@ -118,6 +126,9 @@ GlowSample glowAlongRay(Ray ray, float end, uint tile, GlowTable table, out Glow
     walk.at = at;
     HazeRun run;
     while (nextRun(field, inField, walk, run)) {
+        if (run.end - run.begin < kThinnest + kThinnestShare * run.end) {
+            continue;
+        }
         Ray onward = Ray(ray.origin + run.begin * ray.direction, ray.direction);
         NearPiece piece = NearPiece(onward, run.end - run.begin, run.extinction, radius,
                                     table.tolerance);

@@ -6,8 +6,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "hiding_faces.glsl"
 #include "primitives.glsl"
+
+#include "hiding_faces.glsl"
 #include "transport/constants.glsl"
 
 layout(local_size_x = kGroupSize) in;

@@ -72,24 +72,58 @@ struct NearSum {
     float nodes;  // where kLedger: how many were evaluated
 };
 
-// Of the panes whose integrals are taken in pieces, or of the others: each kind in a loop of its
-// own, for the pieces are few and long.
-void addPanes(PaneList list, NearPiece piece, bool inPieces, inout NearSum sum) {
-    for (uint index = nextPaneBy(list, piece, inPieces); index != kNone;
-         index = nextPaneBy(list, piece, inPieces)) {
-        NearPane pane = NearPaneArray(nearTable.panes).at[index];
-        PaneFrame frame = nearFrame(pane, piece.ray);
-        vec2 chord = nearChord(frame, 0.0, piece.radius, 0.0, piece.span);
-        NearPass pass = nearPass(frame, chord, 0.0);
-        if (chord.x < chord.y && isNearCut(pass, frame, kCutAll) == inPieces && !isPoint(pane)) {
-            float light = inPieces ? nearAtEdges(pass, frame, piece.radius, piece.extinction,
-                                                 piece.tolerance)
-                                   : nearBeside(pass, frame, piece.radius, piece.extinction,
-                                                piece.tolerance, kThinHaze);
-            sum.light += pane.radiance * light;
-            if (kLedger) {
-                sum.nodes += nodesOfPass(pass, inPieces, piece.tolerance);
-            }
+// A pane as a piece of a ray passes it.
+struct NearMeeting {
+    NearPane pane;
+    PaneFrame frame;
+    NearPass pass;
+    bool isNear;  // some of the piece is near the pane, which is no point
+    bool isCut;   // its integral is taken in pieces
+};
+
+NearMeeting meetPane(uint index, NearPiece piece) {
+    NearMeeting met;
+    met.pane = NearPaneArray(nearTable.panes).at[index];
+    met.frame = nearFrame(met.pane, piece.ray);
+    vec2 chord = nearChord(met.frame, 0.0, piece.radius, 0.0, piece.span);
+    met.pass = nearPass(met.frame, chord, 0.0);
+    met.isNear = chord.x < chord.y && !isPoint(met.pane);
+    met.isCut = isNearCut(met.pass, met.frame, kCutAll);
+    return met;
+}
+
+void addMeeting(NearMeeting met, float light, NearPiece piece, inout NearSum sum) {
+    sum.light += met.pane.radiance * light;
+    if (kLedger) {
+        sum.nodes += nodesOfPass(met.pass, met.isCut, piece.tolerance);
+    }
+}
+
+// Of the panes whose integrals are not taken in pieces. Returns the part of the list from the
+// first to the last of the others, nothing where there are none.
+PaneList addWholePanes(PaneList list, NearPiece piece, inout NearSum sum) {
+    PaneList others = PaneList(list.panes, list.end, list.at);
+    for (uint index = nextPaneBy(list, piece, false); index != kNone;
+         index = nextPaneBy(list, piece, false)) {
+        NearMeeting met = meetPane(index, piece);
+        if (met.isNear && met.isCut) {
+            others = PaneList(list.panes, min(others.at, list.at - 1u), list.at);
+        } else if (met.isNear) {
+            addMeeting(met, nearBeside(met.pass, met.frame, piece.radius, piece.extinction,
+                                       piece.tolerance, kThinHaze), piece, sum);
+        }
+    }
+    return others;
+}
+
+// Of the others: in a loop of its own, for the pieces are few and long.
+void addCutPanes(PaneList list, NearPiece piece, inout NearSum sum) {
+    for (uint index = nextPaneBy(list, piece, true); index != kNone;
+         index = nextPaneBy(list, piece, true)) {
+        NearMeeting met = meetPane(index, piece);
+        if (met.isNear && met.isCut) {
+            addMeeting(met, nearAtEdges(met.pass, met.frame, piece.radius, piece.extinction,
+                                        piece.tolerance), piece, sum);
         }
     }
 }
@@ -118,8 +152,7 @@ NearSum nearGlow(NearPiece piece, uint tile, GlowTable table) {
     PaneList list = PaneList(table.tilePanes, found.firstPane, found.firstPane + found.paneCount);
     NearSum sum = NearSum(vec3(0.0), 0.0);
     if (kNearEmitter == kEmitterPane) {
-        addPanes(list, piece, false, sum);
-        addPanes(list, piece, true, sum);
+        addCutPanes(addWholePanes(list, piece, sum), piece, sum);
     }
     if (kPoints) {
         addPoints(list, piece, sum);

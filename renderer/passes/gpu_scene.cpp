@@ -13,6 +13,7 @@
 #include "passes/occluder_tree.h"
 #include "scene/surface_planes.h"
 #include "scene/uniform_haze.h"
+#include "transport/gauss_legendre.h"
 
 namespace nightcity {
 namespace {
@@ -112,6 +113,7 @@ void GpuScene::uploadGeometry(const FlatScene& scene) {
     contents_.triangleFacade = uploadArray<uint>("facades of triangles", facades.triangleFacade);
     contents_.looseWindows = uploadArray<uint>("loose windows", facades.looseWindows);
     contents_.lightList = uploadArray("light list", scene.lightList);
+    contents_.gaussPairs = uploadArray<float>("gauss pairs", kGaussPairs);
     uploadPlanes(scene, facades);
     contents_.groundMaterial = scene.ground ? scene.ground->material : kNone;
     contents_.groundHeight = scene.ground ? scene.ground->height : 0;

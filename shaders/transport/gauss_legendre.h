@@ -12,7 +12,10 @@ NIGHTCITY_BEGIN
 
 NIGHTCITY_CONST int kGaussMost = 12;  // nodes of the largest rule
 
-// Node, weight, node, weight, ...
+// Node, weight, node, weight, ... A device may look through all of a program's own array for one
+// number of it (lavapipe does): NIGHTCITY_GAUSS_PAIRS then names a copy in memory.
+#ifndef NIGHTCITY_GAUSS_PAIRS
+#define NIGHTCITY_GAUSS_PAIRS kGaussPairs
 NIGHTCITY_CONST float kGaussPairs[156] = {
     0.500000000f, 1.000000000f,
     0.211324865f, 0.500000000f, 0.788675135f, 0.500000000f,
@@ -44,11 +47,12 @@ NIGHTCITY_CONST float kGaussPairs[156] = {
     0.206341023f, 0.101583713f, 0.316084251f, 0.116746268f, 0.437383296f, 0.124573523f,
     0.562616704f, 0.124573523f, 0.683915749f, 0.116746268f, 0.793658977f, 0.101583713f,
     0.884951337f, 0.080039164f, 0.952058628f, 0.053469663f, 0.990780317f, 0.023587668f};
+#endif
 
 // (node, weight) of node `index`, from 0, of the rule of `count` nodes.
 NIGHTCITY_FUNCTION vec2 gaussNode(int count, int index) {
     int pair = count * (count - 1) / 2 + index;
-    return vec2(kGaussPairs[2 * pair], kGaussPairs[2 * pair + 1]);
+    return vec2(NIGHTCITY_GAUSS_PAIRS[2 * pair], NIGHTCITY_GAUSS_PAIRS[2 * pair + 1]);
 }
 
 NIGHTCITY_END
