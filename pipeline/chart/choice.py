@@ -19,13 +19,11 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from statistics import NormalDist
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nightcity.chart.errors import LUMINANCE, relative_errors
-from nightcity.chart.needs import PERCENTILE, SAFETY
+from nightcity.chart.errors import relative_errors
+from nightcity.chart.foretell import PERCENTILE, paths_needed
 from nightcity.chart.runs import PixelTable, read_pixels, write_pixels
 from nightcity.chart.settings import FULL, PAPER, SINGLE, UNOCCLUDED, Model
 from nightcity.errors import UsageError
@@ -93,7 +91,9 @@ def choose(scene: Path, view: Sequence[str], tolerance: float, against: Model = 
             if left is not None:
                 reason = f"{candidate.model.name} by {candidate.method} at {left:g}"
                 return Choice(_options(candidate, left), _sentence(tolerance, reason, tried))
-        samples = _samples(sampler.paths(against, _PILOT_SAMPLES), glow, tolerance)
+        pilot = sampler.paths(against, _PILOT_SAMPLES)
+        assert pilot.glow_error is not None  # Monte Carlo always states it
+        samples = paths_needed(glow, pilot.glow_error, _PILOT_SAMPLES, tolerance)
         options = (*against.options, "--method", "path", "--samples", str(samples))
         reason = f"{against.name} by {samples} paths a pixel"
         return Choice(options, _sentence(tolerance, reason, tried))
@@ -111,17 +111,6 @@ def _left(candidate: Candidate, left: float) -> float | None:
 def _options(candidate: Candidate, tolerance: float) -> tuple[str, ...]:
     method = ("--method", candidate.method, "--tolerance", f"{tolerance:g}")
     return (*candidate.model.options, *method)
-
-
-def _samples(pilot: PixelTable, glow: NDArray[np.float64], tolerance: float) -> int:
-    """Paths a pixel until 95 of 100 pixels are within the tolerance."""
-    assert pilot.glow_error is not None  # Monte Carlo always states it
-    lit = glow @ LUMINANCE > 0
-    sigmas = (pilot.glow_error[lit] @ LUMINANCE) / (glow[lit] @ LUMINANCE)
-    normal = [abs(NormalDist().inv_cdf((i + 0.5) / 40)) for i in range(40)]
-    error = float(np.percentile(np.outer(normal, sigmas), PERCENTILE))
-    needed = _PILOT_SAMPLES * SAFETY * (error / tolerance) ** 2
-    return max(2, min(math.ceil(needed), 1 << 24))
 
 
 def _sentence(tolerance: float, chosen: str, tried: Sequence[str]) -> str:

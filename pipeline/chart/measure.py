@@ -28,17 +28,18 @@ _SURFACE_FRAMES = 5
 @dataclass(frozen=True)
 class Extent:
     """How much work a chart is: rounds of timed calls, pixels judged at their centre and as means
-    over places in them, and what the truth may cost."""
+    over places in them, what the truth may cost, and the paths of a closer look at one setting."""
 
     size: str
     rounds: int
     pixels: int
     integrated_pixels: int
     effort: Effort
+    look_paths: int
 
 
-QUICK = Extent("300x165", 2, 200, 12, Effort(0.01, 512, 0.1, 32))
-FULL = Extent("360x198", 2, 1000, 32, Effort(0.003, 1024, 0.1, 64))
+QUICK = Extent("300x165", 2, 200, 12, Effort(0.01, 512, 0.1, 32), 100_000)
+FULL = Extent("300x165", 2, 1000, 32, Effort(0.003, 1024, 0.1, 64), 8_000_000)
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,11 @@ class ShotResults:
     settings: list[Measured]
     truths: dict[str, Truth]  # by the model's name
     centres: dict[str, Values]  # of every model of the ladder, by its name
+
+    @property
+    def charted(self) -> list[Measured]:
+        """The settings that have a frame."""
+        return [measured for measured in self.settings if measured.frame is not None]
 
     def errors(self, measured: Measured, kind: str, place: str) -> ErrorStatistics:
         """Of one kind (KINDS) at one place (PLACES); ``measured`` has a frame."""

@@ -8,13 +8,14 @@ import shlex
 from collections.abc import Sequence
 from html import escape
 
-from nightcity.chart.needs import Change, Needs, Recommendation
+from nightcity.chart.needs import Change, Needs
+from nightcity.chart.recommend import NOISE_SHARE, Recommendation
 from nightcity.chart.settings import FULL, PAPER, SINGLE
 from nightcity.chart.shot import Shot
 
 
 def as_html(needs: Needs, shot: Shot) -> str:
-    """A table of switches, and a paragraph with a command for each tolerance."""
+    """A table of switches, what each tolerance needs of them, and commands that meet it."""
     rows = "".join(_switch_row(change) for change in needs.changes)
     head = "".join(
         f'<th scope="col">{text}</th>'
@@ -28,6 +29,9 @@ def as_html(needs: Needs, shot: Shot) -> str:
     )
     parts = [f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody>']
     parts.append("</table></div>")
+    tolerances = dict.fromkeys(each.tolerance for each in needs.recommendations)
+    parts += [_needed(needs.changes, tolerance) for tolerance in tolerances]
+    parts.append("<h3>The cheapest settings that do it</h3>")
     parts += [_paragraph(each, needs, shot) for each in needs.recommendations]
     return "".join(parts)
 
@@ -37,10 +41,29 @@ def _switch_row(change: Change) -> str:
         escape(change.switch.words),
         f"{_signed(change.bias)} ± {_percent(change.interval)}",
         _percent(change.p95),
-        _percent(change.beyond),
+        _percent(change.beyond(0.02)),
         "not known" if change.cost is None else f"x {change.cost:.2g}",
     ]
     return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+
+
+def _needed(changes: Sequence[Change], tolerance: float) -> str:
+    """In words: which switches this tolerance cannot do without."""
+    needed = [
+        f"{change.switch.words} ({_percent(change.beyond(tolerance))})"
+        for change in changes
+        if change.p95 > tolerance
+    ]
+    others = [
+        f"{change.switch.words} ({_percent(change.p95)} at 95 of 100 pixels)"
+        for change in changes
+        if change.p95 <= tolerance
+    ]
+    words = f"this scene needs {'; '.join(needed)}: in brackets the pixels that are off by more "
+    words = words + "without." if needed else "this scene needs none of these."
+    if others:
+        words += f" It does without {'; '.join(others)}."
+    return f"<p><b>At {_percent(tolerance)}</b> {escape(words)}</p>"
 
 
 def _percent(share: float) -> str:
@@ -66,7 +89,7 @@ def _paragraph(found: Recommendation, needs: Needs, shot: Shot) -> str:
     left_out = _left_out(found, needs)
     command = shlex.join(
         ["./nightcity", "render", f"{shot.scene.name}.usda", "--camera", shot.camera]
-        + [*_shortened(found.options), "-o", "frame.exr"]
+        + [*short_options(found.options), "-o", "frame.exr"]
     )
     return f"<p>{goal}{words} {left_out}</p><pre>{escape(command)}</pre>"
 
@@ -77,7 +100,7 @@ _NOT_CHARTED = (
 )
 
 
-def _shortened(options: Sequence[str]) -> list[str]:
+def short_options(options: Sequence[str]) -> list[str]:
     """With --model instead of the switches, where a name stands for all of them."""
     for name, model in (("paper", PAPER), ("single", SINGLE), ("full", FULL)):
         if tuple(options[: len(model.options)]) == model.options:
@@ -111,11 +134,13 @@ def _foretold(found: Recommendation) -> str:
 def _verdict(found: Recommendation) -> str:
     assert found.error is not None
     kept = "holds" if found.error <= found.tolerance else "MISSES"
-    return f"On the pixels that the choice did not see it {kept}: {_percent(found.error)}."
+    return (
+        f"On {found.pixels} pixels that the choice did not see it {kept}: {_percent(found.error)}."
+    )
 
 
 def _noise(found: Recommendation) -> str:
-    if found.truth_noise < found.tolerance / 4:
+    if found.truth_noise <= NOISE_SHARE * found.tolerance:
         return ""
     return f" (The truth of this chart is itself noisy: {_percent(found.truth_noise)} of a pixel.)"
 
@@ -134,4 +159,7 @@ def _seconds(milliseconds: float) -> str:
     if milliseconds < 1000:
         return f"{milliseconds:.0f} ms"
     seconds = milliseconds / 1000
-    return f"{seconds:.3g} s" if seconds < 600 else f"{seconds / 3600:.1f} h"
+    for unit, size in (("s", 1), ("min", 60)):
+        if seconds < 120 * size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds / 3600:.3g} h"

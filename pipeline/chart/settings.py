@@ -109,7 +109,8 @@ QUICK_POINTS = (
     gauss(PAPER, 0.1, work=0.5),
     gauss(PAPER, 0.01, work=0.5),
     gauss(UNOCCLUDED, 0.1, work=10),
-    field(0.01),
+    field(0.1),
+    field(0.03),
     path(FULL, 4),
 )
 FULL_POINTS = (
@@ -119,7 +120,7 @@ FULL_POINTS = (
     *(gauss(UNOCCLUDED, tolerance, work=10) for tolerance in (0.1, 0.01)),
     gauss(ISOTROPIC, 0.1),
     gauss(LAMBERTIAN, 0.1),
-    gauss(SINGLE, 0.1, work=500),
+    *(gauss(SINGLE, tolerance) for tolerance in (0.1, 0.01)),
     *(field(tolerance) for tolerance in (0.1, 0.03, 0.01, 0.003)),
     field(0.01, "--glow-rays", "all", note=", every ray"),
     field(0.01, *_SUPERSAMPLED, note=", 4 rays a pixel"),

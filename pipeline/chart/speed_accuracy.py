@@ -12,16 +12,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from nightcity.chart.growth import SETTINGS, growth_shots, measure_growth, series, smaller_cities
 from nightcity.chart.kept import Kept
+from nightcity.chart.look import Look
 from nightcity.chart.measure import FULL, QUICK, Extent, ShotResults, measure_shot, planned_work
-from nightcity.chart.needs import find_needs
+from nightcity.chart.needs import Needs, find_needs
 from nightcity.chart.needs_text import as_html
 from nightcity.chart.page import write_page
 from nightcity.chart.plot import plot_speed_accuracy
+from nightcity.chart.recommendations import write_recommendations
 from nightcity.chart.results import Row, make_rows, write_rows
 from nightcity.chart.settings import FULL_POINTS, QUICK_POINTS, Point
 from nightcity.chart.shot import Scene, Shot, Size
@@ -51,7 +50,9 @@ class ChartOptions:
 
 
 def chart(stages: Sequence[Path], output: Path, options: ChartOptions) -> list[Path]:
-    """Measure, and write results.csv, pictures and index.html; returns their paths.
+    """Measure, and write results.csv, recommendations.csv, pictures and index.html.
+
+    Returns their paths.
 
     What was measured stays in ``output``/measured: a chart that was killed goes on from there.
     """
@@ -66,7 +67,7 @@ def chart(stages: Sequence[Path], output: Path, options: ChartOptions) -> list[P
             for camera in scene.choose_cameras(options.cameras)
         ]
         results = list(_measure(kept, shots, options))
-        needs = {str(each.shot): _needs_of(kept, each) for each in results}
+        needs = _needs(kept, results, options.extent)
         growth = {} if options.quick else _growth(kept, shots[0], work)
     rows = [row for each in results for row in make_rows(each, kept.renderer_hash)]
     return _write(rows, results, needs, growth, output)
@@ -93,11 +94,14 @@ def _measure(kept: Kept, shots: Sequence[Shot], options: ChartOptions) -> Iterat
             yield results
 
 
-def _needs_of(kept: Kept, results: ShotResults) -> str:
-    def render(pixels: NDArray[np.int64], options: Sequence[str]) -> NDArray[np.float64]:
-        return kept.pixels(results.shot, pixels, options).glow
-
-    return as_html(find_needs(results, render), results.shot)
+def _needs(kept: Kept, results: Sequence[ShotResults], extent: Extent) -> dict[Shot, Needs]:
+    needs = {}
+    with Progress("looking at what was chosen", len(results)) as progress:
+        for each in results:
+            look = Look(kept, each.shot, extent.effort, extent.look_paths)
+            needs[each.shot] = find_needs(each, look)
+            progress.advance()
+    return needs
 
 
 def _growth(kept: Kept, shot: Shot, work: Path) -> dict[str, Any]:
@@ -113,12 +117,13 @@ def _growth(kept: Kept, shot: Shot, work: Path) -> dict[str, Any]:
 def _write(
     rows: list[Row],
     results: list[ShotResults],
-    needs: dict[str, str],
+    needs: dict[Shot, Needs],
     growth: dict[str, Any],
     output: Path,
 ) -> list[Path]:
-    table = output / "results.csv"
+    table, recommended = output / "results.csv", output / "recommendations.csv"
     write_rows(rows, table)
+    write_recommendations(needs, recommended)
     pictures = [
         path
         for each in results
@@ -127,5 +132,6 @@ def _write(
         )
     ]
     page = output / "index.html"
-    write_page(rows, results, needs, growth, page)
-    return [table, *pictures, page]
+    words = {str(shot): as_html(found, shot) for shot, found in needs.items()}
+    write_page(rows, results, words, growth, page)
+    return [table, recommended, *pictures, page]

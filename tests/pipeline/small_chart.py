@@ -21,7 +21,7 @@ from nightcity.city.parameters import load_parameters
 from nightcity.stage.write import write_stage
 
 CAMERA = "overview75"
-EXTENT = Extent("96x54", 2, 40, 4, Effort(0.01, 256, 0.1, 16))
+EXTENT = Extent("96x54", 2, 40, 4, Effort(0.01, 256, 0.1, 16), 20_000)
 POINTS = (
     *(march(steps, "steps") for steps in (5, 25)),
     *(march(steps) for steps in (5, 25, 100)),

@@ -53,7 +53,7 @@ def element(browser: Chrome, name: str):  # type: ignore[no-untyped-def]
 
 
 def chosen(browser: Chrome) -> str:
-    return element(browser, "chosen").text.split(" (")[0]
+    return element(browser, "chosen").text
 
 
 def test_loads_from_disk_alone(browser: Chrome) -> None:

@@ -15,8 +15,40 @@ const STATISTICS = {
   p95: "95 of 100 pixels", p99: "99 of 100 pixels", median: "median", max: "largest",
   relative_rmse: "relative RMSE", bias: "bias of the mean", flip: "FLIP",
 };
-const LOG = { type: "log", dtick: "D2", exponentformat: "none", minor: { showgrid: true } };
 const CONFIG = { responsive: true, displaylogo: false };
+const NOTICEABLE = 0.02;  // of an error: what a row must gain to be on the front
+// Up to so many decades these digits of each are named.
+const NAMED = [[1, [1, 2, 3, 5, 7]], [3, [1, 2, 5]], [Infinity, [1]]];
+
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
+
+// A logarithmic axis for these values, whose ticks are plain numbers.
+function logAxis(text, values) {
+  const exponents = values.filter((value) => value > 0).map(Math.log10);
+  const decades = Math.max(...exponents) - Math.min(...exponents);
+  const digitsOf = NAMED.find(([most]) => !(decades > most))[1];
+  const ticks = [];
+  for (let exponent = -8; exponent <= 12; exponent += 1) {
+    ticks.push(...digitsOf.map((digit) => Number(`${digit}e${exponent}`)));
+  }
+  return {
+    type: "log", title: { text }, tickvals: ticks, ticktext: ticks.map((value) => plain(value)),
+    gridcolor: colour("grid"), linecolor: colour("line"), zeroline: false,
+    automargin: true,
+  };
+}
+
+const plain = (value) => (value >= 1e6 ? `${value / 1e6} M` : `${value}`);
+
+function layoutOf(more) {
+  return {
+    paper_bgcolor: colour("paper"), plot_bgcolor: colour("paper"),
+    font: { color: colour("ink"), family: "system-ui, sans-serif", size: 13 },
+    hovermode: "closest", legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 },
+    margin: { l: 60, r: 16, t: 10, b: 50 },
+    ...more,
+  };
+}
 
 const kind = () => document.querySelector("input[name=kind]:checked").value;
 const digits = (value) => (Math.abs(value) >= 100 ? value.toFixed(0) : value.toPrecision(2));
@@ -39,11 +71,11 @@ function shownRows() {
   return shotRows().filter((row) => shown.has(row.method) && error(row) != null && row.rounds);
 }
 
-// The rows that no other beats in both time and error, by rising time.
+// The rows that no other beats in both time and error, by rising time; as in plot.py.
 function front(rows) {
   const best = [];
   for (const row of [...rows].sort((a, b) => cost(a) - cost(b) || error(a) - error(b))) {
-    if (!best.length || error(row) < error(best[best.length - 1])) best.push(row);
+    if (!best.length || error(row) < (1 - NOTICEABLE) * error(best[best.length - 1])) best.push(row);
   }
   return best;
 }
@@ -68,7 +100,7 @@ function methodTraces(rows) {
       customdata: own.map((row) => row.id), text: own.map(hover), hoverinfo: "text",
       marker: {
         ...style, opacity: 0.9, size: own.map((row) => (row.id === state.selected ? 18 : 10)),
-        line: { width: own.map((row) => (row.id === state.selected ? 3 : 0)), color: "#111" },
+        line: { width: own.map((row) => (row.id === state.selected ? 3 : 0)), color: colour("ink") },
       },
     };
   }).filter((trace) => trace.x.length);
@@ -101,23 +133,19 @@ function drawPlot() {
   const x = element("cost").value === "ratio_to_surface" ? 1 : surface.steady_frame_ms;
   const traces = [
     { name: "front", mode: "lines", x: best.map(cost), y: best.map((row) => 100 * error(row)),
-      hoverinfo: "skip", line: { color: "#777", width: 1.5, shape: "hv" } },
+      hoverinfo: "skip", line: { color: colour("front"), width: 1.5, shape: "hv" } },
     ...methodTraces(rows), ...paperTrace(shotRows()),
   ];
-  const layout = {
-    margin: { l: 70, r: 20, t: 10, b: 60 }, hovermode: "closest",
-    legend: { orientation: "h", y: 1.08 },
-    xaxis: { title: { text: element("cost").selectedOptions[0].text },
-      ...LOG },
-    yaxis: {
-      ...LOG,
-      title: { text: `${kind()} error, %: ${STATISTICS[element("statistic").value]}` },
-    },
+  const statistic = STATISTICS[element("statistic").value];
+  const unit = element("statistic").value === "flip" ? "x 100" : "%";
+  const layout = layoutOf({
+    xaxis: logAxis(element("cost").selectedOptions[0].text, [x, ...traces.flatMap((t) => t.x)]),
+    yaxis: logAxis(`${kind()} error, ${unit}: ${statistic}`, traces.flatMap((t) => t.y)),
     shapes: [{ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1,
-      line: { dash: "dash", color: "#999" } }],
+      line: { dash: "dash", color: colour("front") } }],
     annotations: [{ x: Math.log10(x), yref: "paper", y: 0.02, text: "surface frame", xanchor: "left",
-      showarrow: false, font: { color: "#777" } }],
-  };
+      showarrow: false, font: { color: colour("quiet") } }],
+  });
   Plotly.react("plot", traces, layout, CONFIG);
   element("explained").textContent = kind() === "numerical"
     ? "Numerical: against the same model, converged." : `Total: against ${data.richest}.`;
@@ -133,26 +161,27 @@ function drawViewer() {
   const row = data.rows.find((each) => each.id === state.selected);
   if (!row) return;
   const pictures = picturesOf(row);
-  element("chosen").textContent = `${row.setting} (${row.options})`;
+  element("chosen").textContent = row.setting;
+  element("options").textContent = row.options;
   element("image").src = pictures.image;
   element("truth").src = pictures.truth;
   element("map").src = pictures[kind()];
   element("truth-name").textContent = pictures.truthName;
   element("map-kind").textContent = kind();
   const lines = [
-    ["steady frame", `${milliseconds(row.steady_frame_ms)}, spread ${milliseconds(row.spread_ms)}`],
-    ["to the surface frame", row.ratio_to_surface.toPrecision(3)],
-    ["bake; memory", `${milliseconds(row.bake_ms)}; ${megabytes(row.memory_bytes)}`],
+    ["steady frame", milliseconds(row.steady_frame_ms)],
+    ["spread of its rounds", milliseconds(row.spread_ms)],
+    ["surface frames", row.ratio_to_surface.toPrecision(3)],
+    ["bake", milliseconds(row.bake_ms)], ["memory", megabytes(row.memory_bytes)],
     ...Object.entries(STATISTICS).map(([name, text]) =>
       [text, name === "flip" ? (row[errorColumn(name)] || 0).toPrecision(3)
         : percent(row[errorColumn(name)])]),
   ];
-  element("numbers").tBodies[0].replaceChildren(...lines.map((line) => {
-    const tr = document.createElement("tr");
-    line.forEach((text, i) => {
-      tr.append(Object.assign(document.createElement(i ? "td" : "th"), { textContent: text }));
-    });
-    return tr;
+  element("numbers").replaceChildren(...lines.map(([name, text]) => {
+    const entry = document.createElement("div");
+    entry.append(Object.assign(document.createElement("dt"), { textContent: name }),
+      Object.assign(document.createElement("dd"), { textContent: text }));
+    return entry;
   }));
 }
 
@@ -243,11 +272,10 @@ function drawGrowth() {
       `${megabytes(p.memory_bytes)}`),
     hoverinfo: "text",
   }));
-  Plotly.react("growth", traces, {
-    margin: { l: 70, r: 20, t: 10, b: 50 }, legend: { orientation: "h", y: 1.12 },
-    xaxis: { ...LOG, title: { text: of } },
-    yaxis: { ...LOG, title: { text: element("growth-cost").selectedOptions[0].text } },
-  }, CONFIG);
+  Plotly.react("growth", traces, layoutOf({
+    xaxis: logAxis(of, traces.flatMap((trace) => trace.x)),
+    yaxis: logAxis(element("growth-cost").selectedOptions[0].text, traces.flatMap((t) => t.y)),
+  }), CONFIG);
 }
 
 function draw() {
@@ -258,7 +286,7 @@ function draw() {
 
 function chooseFirst() {
   const rows = shownRows();
-  state.selected = (front(rows)[0] || rows[0] || {}).id ?? null;
+  state.selected = (front(rows).at(-1) || rows[0] || {}).id ?? null;
 }
 
 function fill(select, entries) {
@@ -306,6 +334,7 @@ function start() {
   for (const input of document.querySelectorAll("#place, #statistic, #cost, input[name=kind]")) {
     input.addEventListener("change", draw);
   }
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { draw(); drawGrowth(); });
   for (const id of ["growth-of", "growth-cost"]) element(id).addEventListener("change", drawGrowth);
 }
 
