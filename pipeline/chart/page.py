@@ -82,7 +82,8 @@ def _in_words(options: Sequence[str]) -> str:
 def _about(rows: Sequence[Row], results: Sequence[ShotResults]) -> str:
     first = results[0]
     return (
-        f"{len(rows) - len(results)} settings of {len(results)} shots on {rows[0]['device']}, "
+        f"{len(first.settings)} settings, {len(results)} shot{'s' * (len(results) > 1)}, on "
+        f"{rows[0]['device']}, "
         f"{first.shot.size} pixels, {len(first.surface)} rounds. Errors at {len(first.pixels)} "
         f"random pixels that see haze, integrated ones at {len(first.integrated_pixels)}; pictures "
         f"are every third pixel of every third row."

@@ -86,10 +86,11 @@ def gauss(model: Model, tolerance: float, work: float = 100) -> Point:
     return Point(name, "gauss", model, knobs, work, frames=1, rounds=rounds)
 
 
-def field(tolerance: float, *more: str, note: str = "") -> Point:
+def field(tolerance: float, *more: str, model: Model = SINGLE, note: str = "") -> Point:
     """The grid of far light and the near windows."""
     knobs = ("--tolerance", f"{tolerance:g}", *more)
-    return Point(f"field {tolerance:g}{note}", "field", SINGLE, knobs, work=20, frames=3)
+    named = note if model == SINGLE else f", {model.name}"
+    return Point(f"field {tolerance:g}{named}", "field", model, knobs, work=20, frames=3)
 
 
 def path(model: Model, samples: int) -> Point:
@@ -108,7 +109,7 @@ QUICK_POINTS = (
     *(march(steps) for steps in (5, 25, 100)),
     gauss(PAPER, 0.1, work=0.5),
     gauss(PAPER, 0.01, work=0.5),
-    gauss(UNOCCLUDED, 0.1, work=10),
+    field(0.1, model=UNOCCLUDED),
     field(0.1),
     field(0.03),
     path(FULL, 4),
@@ -121,9 +122,10 @@ FULL_POINTS = (
     gauss(ISOTROPIC, 0.1),
     gauss(LAMBERTIAN, 0.1),
     *(gauss(SINGLE, tolerance) for tolerance in (0.1, 0.01)),
+    *(field(0.03, model=model) for model in (UNOCCLUDED, ISOTROPIC, LAMBERTIAN)),
     *(field(tolerance) for tolerance in (0.1, 0.03, 0.01, 0.003)),
-    field(0.01, "--glow-rays", "all", note=", every ray"),
-    field(0.01, *_SUPERSAMPLED, note=", 4 rays a pixel"),
+    field(0.03, "--glow-rays", "all", note=", every ray"),
+    field(0.03, *_SUPERSAMPLED, note=", 4 rays a pixel"),
     *(path(FULL, samples) for samples in (4, 16, 64)),
     path(SINGLE, 16),
 )

@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 from xml.etree import ElementTree
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from small_chart import CAMERA, EVERY_METHOD, make_small_chart, shared_chart, small_stage
@@ -15,6 +16,7 @@ from small_chart import CAMERA, EVERY_METHOD, make_small_chart, shared_chart, sm
 from nightcity.chart import kept
 from nightcity.chart.errors import error_statistics
 from nightcity.chart.plot import front
+from nightcity.chart.plot_labels import label_points, plain_logarithmic
 from nightcity.chart.results import COLUMNS, Row, read_rows
 from nightcity.chart.settings import FULL_POINTS, QUICK_POINTS
 from nightcity.chart.shot import Size
@@ -64,6 +66,26 @@ def test_front_is_what_nothing_beats() -> None:
     points = [(1, 9), (2, 5), (3, 6), (4, 5), (5, 1)]
     rows: list[Row] = [{"ms": ms, "error": error} for ms, error in points]
     assert [row["ms"] for row in front(rows, "ms", "error")] == [1, 2, 5]
+
+
+def test_a_gain_that_nobody_sees_is_no_front() -> None:
+    rows: list[Row] = [{"ms": 1, "error": 9}, {"ms": 2, "error": 8.9}, {"ms": 3, "error": 8.7}]
+    assert [row["ms"] for row in front(rows, "ms", "error")] == [1, 3]
+
+
+def test_labels_leave_each_other_room() -> None:
+    figure, axes = plt.subplots(figsize=(6, 3))
+    axes.set(xscale="log", yscale="log", xlim=(1, 1000), ylim=(0.1, 100))
+    plain_logarithmic(axes.xaxis)
+    # Side by side, on top of each other, and at the right border.
+    places = [(30.0, 5.0), (33.0, 5.0), (33.0, 5.2), (950.0, 5.0)]
+    figure.draw_without_rendering()
+    boxes = label_points(axes, [f"march {n}, steps outside" for n in range(4)], places)
+    for i, box in enumerate(boxes):
+        assert box.count_overlaps(boxes[:i]) == 0
+        assert axes.get_window_extent().x0 <= box.x0 and box.x1 <= axes.get_window_extent().x1
+    assert {"1", "2", "5"} <= {text.get_text() for text in axes.get_xticklabels()}
+    plt.close(figure)
 
 
 def test_size_names_one_that_divides() -> None:

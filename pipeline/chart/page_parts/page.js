@@ -15,7 +15,10 @@ const STATISTICS = {
   p95: "95 of 100 pixels", p99: "99 of 100 pixels", median: "median", max: "largest",
   relative_rmse: "relative RMSE", bias: "bias of the mean", flip: "FLIP",
 };
-const CONFIG = { responsive: true, displaylogo: false };
+const CONFIG = {
+  responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d"],
+  displayModeBar: matchMedia("(max-width: 600px)").matches ? false : "hover",
+};
 const NOTICEABLE = 0.02;  // of an error: what a row must gain to be on the front
 // Up to so many decades these digits of each are named.
 const NAMED = [[1, [1, 2, 3, 5, 7]], [3, [1, 2, 5]], [Infinity, [1]]];
@@ -44,7 +47,7 @@ function layoutOf(more) {
   return {
     paper_bgcolor: colour("paper"), plot_bgcolor: colour("paper"),
     font: { color: colour("ink"), family: "system-ui, sans-serif", size: 13 },
-    hovermode: "closest", legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 },
+    hovermode: "closest", legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, itemsizing: "constant" },
     margin: { l: 60, r: 16, t: 10, b: 50 },
     ...more,
   };
