@@ -158,15 +158,16 @@ def _growth(tables: argparse._SubParsersAction) -> None:
         "growth",
         help="how every step grows with the city, as a table and a chart on logarithmic axes",
         description="Writes growth.csv, growth.svg and growth.png. A step that fails or takes "
-        "longer than the limit is left out from that city on, and said.",
+        "longer than the limit is left out from that city on, and said. Run again with the same "
+        "folder, it goes on after the last step; growth.json keeps what is measured.",
     )
     table.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
     table.add_argument(
         "--grids",
         type=wholes,
-        default=[4, 8, 16, 30, 60, 100],
+        default=[4, 8, 16, 30, 60, 100, 300],
         metavar="N,...",
-        help="cities of N x N buildings (default: 4,8,16,30,60,100)",
+        help="cities of N x N buildings (default: 4,8,16,30,60,100,300)",
     )
     table.add_argument(
         "--preset", default="city-100x100", help="what else they are like (default: %(default)s)"

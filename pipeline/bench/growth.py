@@ -9,18 +9,16 @@ process of a step.
 
 from __future__ import annotations
 
-import csv
 import json
 import math
-import tempfile
+import shutil
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-
-import numpy as np
 
 from nightcity.bench.cost import run_measured, run_nightcity
 from nightcity.bench.growth_picture import draw_growth
+from nightcity.bench.growth_record import Growth, LeftOut, read_growth, write_growth
 from nightcity.bench.judge import say
 from nightcity.errors import NightcityError
 from nightcity.render import renderer
@@ -32,7 +30,6 @@ FRAMES: Mapping[str, tuple[str, ...]] = {
     "gauss": ("--model", "paper", "--method", "gauss"),
     "field": ("--model", "single", "--method", "field"),
 }
-_LARGER_HALF = 3  # a slope needs so many cities; below some size start-up time is all there is
 
 
 @dataclass(frozen=True)
@@ -47,85 +44,99 @@ class GrowthOptions:
     size: str
     limit: float
 
-
-@dataclass
-class Growth:
-    """cities: what each holds and costs by column name, seconds and bytes. left_out: the steps
-    that no larger city tries again, with the reason."""
-
-    cities: list[dict[str, float]] = field(default_factory=list)
-    left_out: dict[str, str] = field(default_factory=dict)
-
-    def columns(self, ending: str) -> list[str]:
-        """Names of the columns that end so, in the order in which they came up."""
-        names = dict.fromkeys(name for city in self.cities for name in city)
-        return [name for name in names if name.endswith(ending)]
-
-    def series(self, column: str) -> tuple[np.ndarray, np.ndarray]:
-        """Windows and values of the cities that have the column."""
-        rows = [city for city in self.cities if city.get(column, 0) > 0]
-        return (
-            np.array([city["windows"] for city in rows], float),
-            np.array([city[column] for city in rows], float),
-        )
-
-    def slope(self, column: str) -> float:
-        """Exponent with which a column follows the number of windows: a line through the larger
-        half of the cities, three at least, on logarithmic axes; NaN for fewer."""
-        windows, values = self.series(column)
-        if len(values) < _LARGER_HALF:
-            return math.nan
-        last = slice(-max(_LARGER_HALF, (len(values) + 1) // 2), None)
-        return float(np.polyfit(np.log(windows[last]), np.log(values[last]), 1)[0])
+    @property
+    def kept(self) -> dict[str, object]:
+        """What two runs must share to be joined."""
+        return {"preset": self.preset, "camera": self.camera, "size": self.size}
 
 
 def growth(folder: Path, options: GrowthOptions) -> None:
-    """Measure every city and write growth.csv, growth.svg and growth.png into ``folder``."""
-    found = Growth()
+    """Measure every city and write growth.json, .csv, .svg and .png into ``folder``.
+
+    growth.json is written after each step, and a step that it has is not run again.
+    """
     folder.mkdir(parents=True, exist_ok=True)
+    run = _Run(options, folder, read_growth(folder / "growth.json", options.kept))
     for grid in options.grids:
-        with tempfile.TemporaryDirectory(dir=folder) as work:
-            found.cities.append({"grid": grid})
-            _measure_city(found, grid, options, Path(work))
-        if "windows" not in found.cities[-1]:
-            found.cities.pop()
+        if not run.measure(grid):
             break
-        _write_table(found, folder / "growth.csv")
+    found = run.found
     if not found.cities:
-        raise NightcityError("; ".join(found.left_out.values()))
+        raise NightcityError("; ".join(left.reason for left in found.left_out.values()))
     pictures = draw_growth(found, folder / "growth")
     _print(found, options)
     for path in (folder / "growth.csv", *pictures):
         print(path)
 
 
-def _measure_city(found: Growth, grid: int, options: GrowthOptions, work: Path) -> None:
-    stage, scene = work / "city.usda", work / "scene"
-    made = ["generate", "--preset", options.preset, "--grid", f"{grid}x{grid}", "-o", stage]
-    steps = {
-        "generate": made,
-        "validate": ["validate", stage],
-        "export": ["export", stage, "-o", scene],
-    }
-    for name, command in steps.items():
-        _try(found, grid, name, lambda c=command: _costs(c, options.limit))
-    if not (scene / "scene.json").is_file():
-        return
-    found.cities[-1] |= _sizes(work, scene)
-    for method in options.methods:
-        _try(found, grid, method, lambda m=method: _frame(scene, m, options, work))
+class _Run:
+    """Measures city after city into ``found``."""
 
+    def __init__(self, options: GrowthOptions, folder: Path, found: Growth) -> None:
+        self._options, self._folder, self.found = options, folder, found
 
-def _try(found: Growth, grid: int, name: str, measure: Callable[[], dict[str, float]]) -> None:
-    """Add a step's columns to the last city, unless a smaller one was too large for it."""
-    if name in found.left_out:
-        return
-    say(f"{grid} x {grid}: {name}")
-    try:
-        found.cities[-1] |= {f"{name} {column}": value for column, value in measure().items()}
-    except NightcityError as error:
-        found.left_out[name] = f"{name}: left out from {grid} x {grid} on: {error}"
-        say(found.left_out[name])
+    def measure(self, grid: int) -> bool:
+        """Every step of a city; whether there is one: False where it could not be exported."""
+        options, city = self._options, self.found.city(grid)
+        work = self._folder / f"{grid}x{grid}"
+        stage, scene = work / "city.usda", work / "scene"
+        made = ["generate", "--preset", options.preset, "--grid", f"{grid}x{grid}", "-o", stage]
+        steps = {
+            "generate": (lambda: _costs(made, options.limit), stage),
+            "validate": (lambda: _costs(["validate", stage], options.limit), None),
+            "export": (
+                lambda: _costs(["export", stage, "-o", scene], options.limit),
+                scene / "scene.json",
+            ),
+        }
+        frames = [name for name in options.methods if self._is_wanted(grid, name)]
+        if "windows" in city and not frames and not self._is_wanted(grid, "validate"):
+            return True
+        work.mkdir(exist_ok=True)
+        for name, (measure, product) in steps.items():
+            if name == "generate" or stage.is_file():
+                self._try(grid, name, measure, product)
+        there = (scene / "scene.json").is_file()
+        if there:
+            city |= _sizes(work, scene)
+            for name in frames:
+                self._try(grid, name, lambda m=name: _frame(scene, m, options, work))
+        elif "windows" not in city:
+            self.found.cities.remove(city)
+        self._keep()
+        shutil.rmtree(work)
+        return there
+
+    def _is_wanted(self, grid: int, name: str) -> bool:
+        left = self.found.left_out.get(name)
+        done = any(column.startswith(f"{name} ") for column in self.found.city(grid))
+        return not done and not (left and grid >= left.grid)
+
+    def _try(
+        self,
+        grid: int,
+        name: str,
+        measure: Callable[[], dict[str, float]],
+        product: Path | None = None,
+    ) -> None:
+        """Add a step's columns, where it is wanted or its product is: an earlier run may have had
+        both and lost the product."""
+        lost = product is not None and not product.exists()
+        left = self.found.left_out.get(name)
+        if not self._is_wanted(grid, name) and (not lost or (left and grid >= left.grid)):
+            return
+        say(f"{grid} x {grid}: {name}")
+        try:
+            columns = {f"{name} {column}": value for column, value in measure().items()}
+            self.found.city(grid).update(columns)
+        except NightcityError as error:
+            reason = f"{name}: left out from {grid} x {grid} on: {error}"
+            self.found.left_out[name] = LeftOut(grid, reason)
+            say(reason)
+        self._keep()
+
+    def _keep(self) -> None:
+        write_growth(self.found, self._folder / "growth.json", self._options.kept)
 
 
 def _costs(command: Sequence[str | Path], limit: float) -> dict[str, float]:
@@ -163,14 +174,6 @@ def _frame(scene: Path, method: str, options: GrowthOptions, work: Path) -> dict
     }
 
 
-def _write_table(found: Growth, path: Path) -> None:
-    names = dict.fromkeys(name for city in found.cities for name in city)
-    with path.open("w", newline="") as file:
-        table = csv.DictWriter(file, list(names), lineterminator="\n")
-        table.writeheader()
-        table.writerows(found.cities)
-
-
 def _print(found: Growth, options: GrowthOptions) -> None:
     last = found.cities[-1]
     print(
@@ -187,5 +190,5 @@ def _print(found: Growth, options: GrowthOptions) -> None:
                 f"| {name.removesuffix(ending)} | {slope:.2f} | {value / scale:.3g} {unit} "
                 f"| {each:.3g} {small} |"
             )
-    for reason in found.left_out.values():
-        print(f"\n{reason}")
+    for left in found.left_out.values():
+        print(f"\n{left.reason}")

@@ -14,7 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 if TYPE_CHECKING:
-    from nightcity.bench.growth import Growth
+    from nightcity.bench.growth_record import Growth
 
 # Wall time of what processor time is shown of, and what every method repeats.
 _HIDDEN = (" wall s",)
