@@ -11,16 +11,14 @@ import sys
 from pathlib import Path
 
 from nightcity import __version__
+from nightcity.command_parser import CommandParser
 from nightcity.errors import NightcityError
 from nightcity.farm.commands import add_farm
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run one command; returns its exit code."""
-    parser = _parser()
-    options, rest = parser.parse_known_args(arguments)
-    if rest and not options.passes_options_on:
-        parser.error(f"unknown arguments: {' '.join(rest)}")
+    options, rest = _parser().parse_known_args(arguments)
     options.renderer_options = rest
     signal.signal(signal.SIGTERM, _stop)
     try:
@@ -44,12 +42,9 @@ def _stop(signal_number: int, frame: object) -> None:
     raise SystemExit(128 + signal_number)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="nightcity", description="Renders the glow of a city at night."
-    )
+def _parser() -> CommandParser:
+    parser = CommandParser(prog="nightcity", description="Renders the glow of a city at night.")
     parser.add_argument("--version", action="version", version=f"nightcity {__version__}")
-    parser.set_defaults(passes_options_on=False)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for add in (_demo, _generate, _import, _validate, _export, _render, _stitch, _sheet, _movie):
         add(commands)

@@ -51,13 +51,13 @@ NIGHTCITY_CHOICES(ProgressStyle, {"auto", ProgressStyle::automatic},
 
 #undef NIGHTCITY_CHOICES
 
-// "a, b or c"; `last` joins the last two.
+// "a, b or c": `between` joins the names, `last` the last two.
 template <typename Value>
-std::string choiceNames(std::string_view last) {
+std::string choiceNames(std::string_view between, std::string_view last) {
     std::string names;
     const auto choices = kChoices<Value>;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        names += i == 0 ? "" : i + 1 == choices.size() ? std::string(last) : ", ";
+        names += i == 0 ? "" : i + 1 == choices.size() ? last : between;
         names += choices[i].name;
     }
     return names;

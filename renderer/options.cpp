@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <ostream>
 
@@ -11,6 +12,7 @@
 #include "defaults.h"
 #include "errors.h"
 #include "frame_names.h"
+#include "nearest_name.h"
 #include "option_checks.h"
 
 namespace nightcity {
@@ -69,10 +71,10 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& target,
             }
         }
         throw UsageError(name + " " + text + " is not known; there is " +
-                         choiceNames<Value>(" and "));
+                         choiceNames<Value>(", ", " and "));
     };
     return app.add_option_function<std::string>(name, set, help)
-        ->type_name(choiceNames<Value>("|"))
+        ->type_name(choiceNames<Value>("|", "|"))
         ->default_str(choiceName(target));
 }
 
@@ -253,6 +255,25 @@ void fillIn(RenderSettings& settings, const Given& given) {
     }
 }
 
+// For the first option that is not known: the one that may be meant.
+std::string suggestion(const CLI::App& app) {
+    const std::vector<std::string> unknown = app.remaining();
+    const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& text) {
+        return text.starts_with("--");
+    });
+    if (option == unknown.end()) {
+        return "";
+    }
+    std::vector<std::string> names;
+    for (const CLI::Option* known : app.get_options()) {
+        for (const std::string& name : known->get_lnames()) {
+            names.push_back("--" + name);
+        }
+    }
+    const std::string nearest = nearestName(option->substr(0, option->find('=')), names);
+    return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
 }  // namespace
 
 std::optional<Options> parseOptions(int argc, const char* const* argv, std::ostream& out) {
@@ -273,7 +294,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv, std::ostr
         out << app.version() << "\n";
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
-        throw UsageError(std::string(error.what()) + "; see nightcity-render --help");
+        throw UsageError(error.what() + suggestion(app) + "; see nightcity-render --help");
     }
     if (quiet) {
         options.progress = ProgressStyle::none;

@@ -196,6 +196,7 @@ def test_town(nightcity: Command, tmp_path: Path) -> None:
         (("--method", "guess"), 2, "march"),
         (("--model", "full", "--method", "field"), 2, "--method path"),
         (("--model", "best"), 2, "paper"),
+        (("--tolerence", "0.1"), 2, "did you mean --tolerance?"),
     ],
 )
 def test_wrong_options(
@@ -210,6 +211,17 @@ def test_missing_stage(nightcity: Command, tmp_path: Path) -> None:
     done = nightcity("render", tmp_path / "no.usda", "-o", tmp_path / "x.exr", code=3)
     assert "no.usda" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("command", "word"),
+    [
+        (("generate", "--griid", "3x3", "-o", "city.usda"), "did you mean --grid?"),
+        (("bench", "growth", "--methds", "field", "-o", "out"), "did you mean --methods?"),
+    ],
+)
+def test_unknown_options_name_the_nearest(nightcity: Command, command: tuple, word: str) -> None:
+    assert word in nightcity(*command, code=2).stderr
 
 
 def test_unknown_parameter_names_the_nearest(nightcity: Command, tmp_path: Path) -> None:

@@ -116,6 +116,12 @@ TEST(Options, UnknownChoicesNameTheKnownOnes) {
     EXPECT_REFUSED("there is paper", "s", "-o", "a.exr", "--model", "best");
 }
 
+TEST(Options, UnknownOptionsNameTheNearestOne) {
+    EXPECT_REFUSED("did you mean --tolerance?", "city.scene", "-o", "a.exr", "--tolerence", "0.1");
+    EXPECT_REFUSED("did you mean --pixel-samples?", "city.scene", "--pixelsamples=4");
+    EXPECT_EQ(refusal({"city.scene", "--xyzzy", "4"}).find("mean"), std::string::npos);
+}
+
 TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
     for (const char* method : {"march", "gauss", "field"}) {
         EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--method", method, "--scattering",
