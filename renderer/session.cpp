@@ -236,6 +236,11 @@ private:
             stopIfAsked();
         });
         report_.frames.push_back(source_->statistics());
+        const bool updated = !first && product_.frame != renderedFrame_;
+        renderedFrame_ = product_.frame;
+        if (updated) {
+            report_.updateMilliseconds.push_back(source_->statistics().bakeMilliseconds);
+        }
         if (first) {
             report_.bakeMilliseconds = source_->statistics().bakeMilliseconds;
             for (const std::string& sentence : source_->notes()) {
@@ -272,6 +277,7 @@ private:
     StatisticsReport report_;
     std::vector<std::pair<std::string, std::string>> settings_;  // of the last image
     std::unique_ptr<FrameSource> source_;
+    int renderedFrame_ = 0;  // by source_
 };
 
 }  // namespace

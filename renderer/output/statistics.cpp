@@ -15,8 +15,11 @@ namespace nightcity {
 
 namespace {
 
-// Linear between the two nearest ranks. `values` must not be empty.
+// Linear between the two nearest ranks; 0 of no values.
 double quantile(std::vector<double> values, double share) {
+    if (values.empty()) {
+        return 0;
+    }
     std::sort(values.begin(), values.end());
     const double place = share * double(values.size() - 1);
     const std::size_t below = std::size_t(place);
@@ -61,6 +64,8 @@ nlohmann::ordered_json timing(const StatisticsReport& report) {
     return {{"load_ms", report.loadMilliseconds},
             {"bake_ms", report.bakeMilliseconds},
             {"bake_passes", bakePasses},
+            {"bake_updates", report.updateMilliseconds.size()},
+            {"bake_update_ms", quantile(report.updateMilliseconds, 0.5)},
             {"first_frame_ms", report.frames.front().frameMilliseconds},
             {"steady_frame_ms", quantile(milliseconds, 0.5)},
             {"steady_frames", milliseconds.size()},

@@ -23,6 +23,7 @@ struct StatisticsReport {
     std::uint64_t lightListEntries = 0;
     double loadMilliseconds = 0;
     double bakeMilliseconds = 0;
+    std::vector<double> updateMilliseconds;  // what later frames of a shot changed of the bake
     std::vector<RenderStatistics> frames;  // one a render call, in order; at least one
     std::vector<std::string> notes;
 };

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -33,7 +34,11 @@ def scene(nightcity: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_frame_alone_is_that_of_the_shot(scene: Path, tmp_path: Path, method: str) -> None:
     """Windows go on and off between the frames; what is baked of them is updated or made anew."""
     options = [scene, *VIEW, "--method", method, *METHODS[method]]
-    run_renderer([*options, "--frames", "1,5,9", "-o", tmp_path / "shot.####.exr"])
+    statistics = tmp_path / "shot.json"
+    shot = ("--frames", "1,5,9", "-o", tmp_path / "shot.####.exr", "--stats", statistics)
+    run_renderer([*options, *shot])
+    timing = json.loads(statistics.read_text())["timing"]
+    assert timing["bake_updates"] == 2 and 0 < timing["bake_update_ms"] < timing["bake_ms"]
     run_renderer([*options, "--frames", "9", "-o", tmp_path / "alone.####.exr"])
     frames = [(tmp_path / f"shot.000{frame}.exr").read_bytes() for frame in (1, 5, 9)]
     assert len(set(frames)) == 3
