@@ -28,6 +28,12 @@ def test_changes_by_hand() -> None:
     assert found.mean_change == pytest.approx(0.1)
 
 
+def test_a_frame_that_sees_no_lit_haze_counts() -> None:
+    truth = np.array([[1.0, 1.0], [0.0, 0.0], [1.0, 1.0]])
+    found = flicker_of(truth + [[0, 0], [0.01, 0.01], [0, 0]], truth)
+    assert found.largest_change == pytest.approx(1) == found.mean_change
+
+
 def test_a_shot_of_three_frames(nightcity: Command, tmp_path: Path) -> None:
     stage = tmp_path / "shot.usda"
     nightcity(
