@@ -10,8 +10,10 @@
 #include "near_field.glsl"
 #include "transport/constants.glsl"
 
-// Node spacings of the far field a pair of Gauss nodes.
+// Node spacings of the far field a pair of Gauss nodes. Of isotropic windows the edges of shadows
+// lie amid the bricks (passes/far_alignment.h).
 const float kFarStretch = 4.0;
+const float kFarStretchOfIsotropic = 2.0;
 // m: media nearer to each other along a ray have no gap between them.
 const float kMediaGap = 1e-3;
 // m, and as a share of the way: no haze is so thin, but a ray onto a roof or a wall that ends
@@ -48,7 +50,9 @@ void addFar(FarFieldTable field, FieldRay ray, float begin, float end, inout Haz
             brick = brickAfter(field, ray, begin);
             span = min(brick.end, end) - begin;
             float spacing = field.cellSide * brick.side / float(kBrickSteps);
-            count = 2 * int(clamp(ceil(span / (kFarStretch * spacing) - 0.01), 1.0,
+            float most =
+                kNearEmitter == kEmitterIsotropic ? kFarStretchOfIsotropic : kFarStretch;
+            count = 2 * int(clamp(ceil(span / (most * spacing) - 0.01), 1.0,
                                   0.5 * float(kGaussMost)));
             start = (ray.start - brick.corner) / brick.side;
             pace = ray.pace / brick.side;

@@ -15,6 +15,7 @@
 NIGHTCITY_ARRAY(HazeArray, FarMedium)
 
 struct HazeWalk {
+    uvec2 nodes;     // HazeNode, the tree; 0: no haze
     vec3 origin;
     vec3 direction;  // unit vector
     vec3 inverse;
@@ -30,14 +31,24 @@ struct HazePart {
     uint medium;   // into FarMedium; kNone: there is none left
 };
 
-HazeWalk hazeWalk(Ray ray, float end) {
-    float last = sceneTable.hazeNodes == uvec2(0) ? 0.0 : end;
-    return HazeWalk(ray.origin, ray.direction, reciprocal(ray.direction), 0.0, last, 0u);
+HazeWalk walkOf(uvec2 nodes, Ray ray, float end) {
+    float last = nodes == uvec2(0) ? 0.0 : end;
+    return HazeWalk(nodes, ray.origin, ray.direction, reciprocal(ray.direction), 0.0, last, 0u);
 }
 
+HazeWalk hazeWalk(Ray ray, float end) {
+    return walkOf(sceneTable.hazeNodes, ray, end);
+}
+
+// A leaf, and what it may hold.
+struct HazeLeaf {
+    uint node;
+    uint item;
+};
+
 // The leaf about `at`, and in `cellEnd` where the ray leaves it.
-uint leafAt(inout HazeWalk walk, out float cellEnd) {
-    HazeNodeArray nodes = HazeNodeArray(sceneTable.hazeNodes);
+HazeLeaf leafAt(inout HazeWalk walk, out float cellEnd) {
+    HazeNodeArray nodes = HazeNodeArray(walk.nodes);
     cellEnd = walk.end;
     uint index = walk.root;
     bool isWhole = true;  // all that is left lies in the node
@@ -57,13 +68,13 @@ uint leafAt(inout HazeWalk walk, out float cellEnd) {
         walk.root = isWhole ? index : walk.root;
         node = nodes.at[index];
     }
-    return node.item;
+    return HazeLeaf(index, node.item);
 }
 
 HazePart nextHaze(inout HazeWalk walk) {
     while (walk.at < walk.end) {
         float cellEnd;
-        uint medium = leafAt(walk, cellEnd);
+        uint medium = leafAt(walk, cellEnd).item;
         float begin = walk.at;
         walk.at = cellEnd;
         if (medium != kNone) {

@@ -1,20 +1,32 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first media box on every ray of a band, for methods that do not ask box by box.
+// The first media box on each ray of the cells that media_cells.comp lists. A few groups take
+// them all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "glow_cells.glsl"
 #include "intersect.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= push.pixelCount) {
+    GlowTable table = glowTable;
+    if (table.rows == 0u) {
         return;
     }
-    Ray ray = cameraRay(pixelOf(push.firstPixel + index), push.sampleIndex);
-    RayProgressArray(frameTable.progress).at[index].firstMediaId =
-        firstMediaId(ray, SurfaceRecordArray(frameTable.surfaces).at[index].depth);
+    const uint kPixels = kGlowCell * kGlowCell;
+    uint count = kPixels * UintArray(table.mixedCells).at[0];
+    for (uint k = gl_GlobalInvocationID.x; k < count; k += kMediaIdGroups * kGroupSize) {
+        uint cell = UintArray(table.mixedCells).at[1u + k / kPixels];
+        ivec2 first = ivec2(cell % table.columnCells, cell / table.columnCells) * int(kGlowCell);
+        ivec2 at = first + ivec2(k % kGlowCell, k / kGlowCell % kGlowCell);
+        if (at.x < int(frameTable.width) && at.y < int(table.rows)) {
+            uint pixel = pixelIndex(at);
+            Ray ray = cameraRay(pixelOf(push.firstPixel + pixel), push.sampleIndex);
+            RayProgressArray(frameTable.progress).at[pixel].firstMediaId =
+                firstMediaId(ray, SurfaceRecordArray(frameTable.surfaces).at[pixel].depth);
+        }
+    }
 }

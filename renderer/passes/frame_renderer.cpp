@@ -13,7 +13,7 @@ namespace {
 
 // surface, lit, traverse, march or gauss; or surface, lit, media ids, three rounds of plan, tiles
 // and glow, composite
-constexpr std::uint32_t kSpansPerBatch = 13;
+constexpr std::uint32_t kSpansPerBatch = 14;
 // Pixels of a band: about 100 MiB of records and images.
 constexpr std::uint32_t kBandPixels = 1u << 18;
 // Of --method field, whose records are smaller and whose bands overlap.
@@ -414,14 +414,17 @@ void FrameRenderer::traceGlow(Work& work, const PushConstants& push, bool last) 
             if (pipelines_->choice.lightsSurfaces()) {
                 dispatch(commands, "lit", pipelines_->lit, push);
             }
+            const auto timed = [&](const char* name, const std::function<void()>& pass) {
+                timestamps_.span(commands, name, pass);
+                gpu::computeBarrier(commands);
+            };
             if ((pipelines_->choice.aovs & kAovMediaId) != 0) {
-                dispatch(commands, "media ids", pipelines_->mediaIds, push);
+                glow_->recordMedia(commands, push, timed);
+                timed("media ids", [&] {
+                    pipelines_->mediaIds.dispatch(commands, &push, kMediaIdGroups);
+                });
             }
-            glow_->record(commands, push,
-                          [&](const char* name, const std::function<void()>& pass) {
-                              timestamps_.span(commands, name, pass);
-                              gpu::computeBarrier(commands);
-                          });
+            glow_->record(commands, push, timed);
             if (last) {
                 band_->images().recordReadback(commands);
             }

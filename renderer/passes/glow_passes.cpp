@@ -10,6 +10,8 @@
 #include "glow_refine_spirv.h"
 #include "glow_tiles_spirv.h"
 #include "glow_trace_spirv.h"
+#include "media_cells_spirv.h"
+#include "media_corners_spirv.h"
 #include "passes/gpu_scene.h"
 #include "passes/pass_pipelines.h"
 
@@ -22,7 +24,8 @@ static_assert(sizeof(NearTable) == 2 * 8 + 4);
 static_assert(sizeof(GlowSample) == 16);
 static_assert(sizeof(GlowTile) == 12);
 static_assert(sizeof(GlowLedger) == 8);
-static_assert(sizeof(GlowTable) == 8 * 8 + 44);
+static_assert(sizeof(MediumSeen) == 8);
+static_assert(sizeof(GlowTable) == 10 * 8 + 44);
 
 std::uint32_t cellsFor(std::uint32_t pixels) {
     return (pixels + kGlowCell - 1) / kGlowCell;
@@ -63,6 +66,7 @@ GlowPasses::GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32
     : device_(device),
       commands_(commands),
       ledgerBytes_((aovs & kLedgerAovs) != 0 ? sizeof(GlowLedger) : 0),
+      seesMedia_((aovs & kAovMediaId) != 0),
       plan_(makePipeline(device, "glow plan", kGlowPlanSpirv, {})),
       tiles_(makePipeline(device, "glow tiles", kGlowTilesSpirv, {})),
       trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {},
@@ -70,6 +74,8 @@ GlowPasses::GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32
                            ledgerBytes_ != 0 ? 1u : 0u, emitterConstant(near.emitter)})),
       refine_(makePipeline(device, "glow refine", kGlowRefineSpirv, {})),
       composite_(makePipeline(device, "glow composite", kGlowCompositeSpirv, {}, {0, aovs})),
+      mediaCorners_(makePipeline(device, "media corners", kMediaCornersSpirv, {})),
+      mediaCells_(makePipeline(device, "media cells", kMediaCellsSpirv, {})),
       paneCounter_(device, "glow pane counter", 4),
       table_(device, "glow table", sizeof(GlowTable), gpu::MemoryKind::device) {
     contents_.paneCounter = addressWords(paneCounter_.buffer().address());
@@ -103,6 +109,11 @@ void GlowPasses::reserve(std::uint32_t width, std::uint32_t rows) {
     // A cell has at least one pixel.
     contents_.cells = make(cells_, "glow cells", std::uint64_t{pixels} * 4);
     contents_.traced = make(traced_, "glow cells traced", std::uint64_t{pixels} * 4);
+    if (seesMedia_) {
+        contents_.mediaSeen =
+            make(mediaSeen_, "media seen", std::uint64_t{pixels} * sizeof(MediumSeen));
+        contents_.mixedCells = make(mixedCells_, "mixed cells", (std::uint64_t{pixels} + 1) * 4);
+    }
     contents_.tiles = make(tileTable_, "glow tiles", std::uint64_t{tiles} * sizeof(GlowTile));
     contents_.tileRays = make(tileRays_, "glow rays", std::uint64_t{tiles} * kTilePixels * 4);
     pixels_ = pixels;
@@ -146,6 +157,18 @@ void GlowPasses::recordWarmUp(VkCommandBuffer commands, const PushConstants& pus
     for (const gpu::ComputePipeline* pipeline : {&plan_, &tiles_, &trace_, &refine_, &composite_}) {
         pipeline->dispatch(commands, &push, 1);
     }
+}
+
+void GlowPasses::recordMedia(VkCommandBuffer commands, const PushConstants& push,
+                             const Timed& timed) const {
+    const std::uint32_t cells = contents_.columnCells * contents_.rowCells;
+    const std::uint32_t groups = (cells + kGroupSize - 1) / kGroupSize;
+    vkCmdFillBuffer(commands, mixedCells_.get(), 0, 4, 0);
+    timed("media ids", [&] {
+        mediaCorners_.dispatch(commands, &push, groups);
+        gpu::computeBarrier(commands);
+        mediaCells_.dispatch(commands, &push, groups);
+    });
 }
 
 void GlowPasses::record(VkCommandBuffer commands, PushConstants push, const Timed& timed) const {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The passes of --method field over one band (shaders/shared/glow.h): choose rays, integrate
-// along them, choose more where glow bends, composite.
+// along them, choose more where glow bends, composite; and which media are seen first.
 #pragma once
 
 #include <cstdint>
@@ -52,6 +52,9 @@ public:
     // compute barrier behind it.
     using Timed = std::function<void(const char*, const std::function<void()>&)>;
     void record(VkCommandBuffer commands, PushConstants push, const Timed& timed) const;
+    // With kAovMediaId, before that: the ids of the media that rays meet first, but those of the
+    // cells that it lists.
+    void recordMedia(VkCommandBuffer commands, const PushConstants& push, const Timed& timed) const;
 
     // After the passes of a band have run: whether its lists of panes did not fit. There is
     // room then, and the passes are to be recorded anew, from setBand on.
@@ -63,8 +66,11 @@ private:
     gpu::Device& device_;
     gpu::Commands& commands_;
     std::uint64_t ledgerBytes_;  // a pixel; 0: none is kept
+    bool seesMedia_;             // their ids are asked for
     gpu::ComputePipeline plan_, tiles_, trace_, refine_, composite_;
+    gpu::ComputePipeline mediaCorners_, mediaCells_;
     gpu::Buffer samples_, ledger_, cells_, traced_, tileTable_, tileRays_, tilePanes_;
+    gpu::Buffer mediaSeen_, mixedCells_;
     gpu::ReadableBuffer paneCounter_;
     gpu::Buffer table_;
     std::uint32_t pixels_ = 0, tileCount_ = 0;  // that there is room for

@@ -140,6 +140,18 @@ void GpuScene::uploadHaze(const FlatScene& scene) {
     contents_.hazeNodes = uploadArray<HazeNode>("haze tree", buildHazeTree(haze));
 }
 
+void GpuScene::uploadMediaPlanes(const FlatScene& scene) {
+    std::vector<FarMedium> boxes;
+    for (const MediaBox& box : scene.mediaBoxes) {
+        boxes.push_back({box.lo, box.extinction, box.hi, box.extinction * box.albedo});
+    }
+    contents_.mediaPlanes = uvec2(0);
+    if (!boxes.empty()) {
+        mediaPlanes_ = upload<HazeNode>("media planes", buildHazeTree(boxes), 0);
+        contents_.mediaPlanes = addressWords(mediaPlanes_.address());
+    }
+}
+
 void GpuScene::uploadPlanes(const FlatScene& scene, const FacadeTable& facades) {
     const SurfacePlanes planes = findSurfacePlanes(scene, facades);
     contents_.trianglePlane = uploadArray<uint>("planes of triangles", planes.ofTriangle);
@@ -294,6 +306,7 @@ void GpuScene::syncFarField(const FlatScene& scene, std::span<const std::uint8_t
     farField_.syncWindowState(scene, windowOn, tableAddress(), progress);
     if (isNew) {  // after the bake, which has no need of it: so the two never share the memory
         uploadNearField(scene, settings);
+        uploadMediaPlanes(scene);
         writeTable();
         farFieldSettings_ = settings;
     }

@@ -65,6 +65,7 @@ private:
     void uploadOccluders(const FlatScene& scene);
     void uploadMediaTree(const FlatScene& scene);
     void uploadHaze(const FlatScene& scene);
+    void uploadMediaPlanes(const FlatScene& scene);
     void uploadPlanes(const FlatScene& scene, const FacadeTable& facades);
     void uploadNearField(const FlatScene& scene, const FarFieldSettings& settings);
     gpu::Buffer uploadNearPanes(const FlatScene& scene, const NearPanes& near);
@@ -94,6 +95,7 @@ private:
     LightBuffers lights_;
     FarFieldGrid farField_;
     std::vector<gpu::Buffer> nearField_;
+    gpu::Buffer mediaPlanes_;
     std::optional<FarFieldSettings> farFieldSettings_;  // that the far field was laid out for
     gpu::Buffer table_;
     SceneTable contents_{};

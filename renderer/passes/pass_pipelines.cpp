@@ -18,7 +18,7 @@ namespace {
 
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(MarchMedium) == 20);
-static_assert(sizeof(SceneTable) == 29 * 8 + 16);
+static_assert(sizeof(SceneTable) == 30 * 8 + 16);
 static_assert(sizeof(BoxNode) == 32);
 static_assert(sizeof(OccluderFace) == 20);
 static_assert(sizeof(HazeNode) == 12);

@@ -148,6 +148,7 @@ struct SceneTable {
     uvec2 nearField;       // NearTable of glow.h; 0 for methods without
     uvec2 trianglePlane;   // uint a triangle: those of one number lie in one plane
     uvec2 windowPlane;     // uint a window: the same number as the wall behind it
+    uvec2 mediaPlanes;     // HazeNode over all media boxes, the root first; 0 for methods without
     uvec2 gaussPairs;      // float: kGaussPairs of transport/gauss_legendre.h
 };
 

@@ -25,6 +25,7 @@ NIGHTCITY_CONST uint kGlowRounds = 3u;  // of choosing rays and integrating alon
 NIGHTCITY_CONST uint kTileCells = 8u;   // cells a side of a tile, whose rays share a list of panes
 NIGHTCITY_CONST uint kTilePixels = kTileCells * kTileCells * kGlowCell * kGlowCell;
 NIGHTCITY_CONST uint kTraceGroup = 32u;  // threads of glow_trace.comp, a group a tile
+NIGHTCITY_CONST uint kMediaIdGroups = 64u;  // of media_ids.comp
 NIGHTCITY_CONST uint kTileGroup = 64u;  // threads of glow_tiles.comp, one a tile
 
 // A window as its near part is integrated (transport/near_window.h); one a window. What is said of
@@ -58,6 +59,13 @@ struct GlowLedger {
     float cost;   // samples of the far field, and nodes of the integrals over near panes
 };
 
+// The media box that a ray meets first, whatever surfaces hide. Rays of equal `path` pass the same
+// leaves of the tree of planes, and before the last the boxes of these on the same sides.
+struct MediumSeen {
+    uint box;   // into MediaBox, or kNone
+    uint path;  // a hash
+};
+
 // Of kTileCells x kTileCells cells: its rays of this round, and the lit panes whose near parts
 // they may meet: tilePanes[firstPane] and so on.
 struct GlowTile {
@@ -76,6 +84,9 @@ struct GlowTable {
     uvec2 tiles;        // GlowTile, row by row
     uvec2 tileRays;     // uint, kTilePixels a tile: pixels of the band
     uvec2 tilePanes;    // uint, those of one tile after another: into NearTable.panes
+    uvec2 mediaSeen;    // MediumSeen a cell: along the ray of its first pixel; 0 where no ids of
+                        // media are asked for, as the next
+    uvec2 mixedCells;   // uint: how many cells may see several media first, then these
     uvec2 paneCounter;  // uint: panes of all tiles; may be more than there is room for
     uint paneCapacity;
     uint rows;          // pixels, of the band

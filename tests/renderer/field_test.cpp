@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -109,6 +111,42 @@ SceneBuilder corner() {
     city.addMediaBox({6, 0, 0}, {14, 8, 12}, 0.04f, 0.8f);
     city.addCamera("corner", {20, -10, 9}, {5, 0, 6}, 50);
     return city;
+}
+
+// Haze of two kinds around a building, in boxes that share faces, one of them far thinner than a
+// pixel is wide, and a layer above.
+SceneBuilder manyBoxes() {
+    SceneBuilder city;
+    const uint wall = city.addMaterial(vec3(0.5f));
+    city.ground = GroundPlane{0, wall};
+    city.addBoxBuilding({-4, 0, 0}, {4, 8, 9}, wall);
+    city.addWindow({0, -0.01f, 6}, {0.6f, 0, 0}, {0, 0, 0.75f});
+    for (int i = 0; i < 6; ++i) {
+        const float x = -12.0f + 4.0f * float(i);
+        city.addMediaBox({x, -12, 0}, {x + 4, -4, 9}, 0.02f, 0.9f);
+        city.addMediaBox({x, -4, 0}, {x + 4, 0, 4 + float(i)}, 0.01f, 0.9f);
+    }
+    city.addMediaBox({-12, -12.001f, 0}, {12, -12, 9}, 0.02f, 0.9f);
+    city.addMediaBox({-12, -12, 10}, {12, 8, 14}, 0.005f, 0.9f);
+    city.addCamera("outside", {9, -30, 16}, {0, 0, 5}, 40);
+    city.addCamera("inside", {-3, -8, 3}, {2, 0, 5}, 70);
+    city.addCamera("onFace", {0, -20, 4}, {0, 0, 4}, 60);
+    return city;
+}
+
+// The traversal of --method march asks every box on the ray.
+TEST(FieldMediaIds, AreThoseOfTheTraversal) {
+    const FlatScene scene = manyBoxes().load();
+    RenderSettings march;
+    for (const auto& [camera, least] :
+         {std::pair{"outside", 6u}, std::pair{"inside", 1u}, std::pair{"onFace", 2u}}) {
+        const RenderProduct product = productOf(camera, 173, 97);
+        const Frame field = renderOnDevice(scene, product, fieldSettings());
+        const Frame traversed = renderOnDevice(scene, product, march);
+        EXPECT_EQ(field.mediaId, traversed.mediaId) << camera;
+        const std::set<float> ids(field.mediaId.begin(), field.mediaId.end());
+        EXPECT_GE(ids.size(), least) << camera;
+    }
 }
 
 struct ModelCase {
