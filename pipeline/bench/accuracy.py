@@ -3,7 +3,8 @@
 """``nightcity bench accuracy``: every method against the judge, on pixels chosen at random.
 
 The errors are numerical (design section 5): the judge computes the same model. What has a
-tolerance is held against it; Monte Carlo is held against its own standard error.
+tolerance is held against it; Monte Carlo is held against its own standard error, and the field's
+estimate of its error against that error.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 from nightcity.bench.judge import Keeper, View, choose_pixels, measure, say
 from nightcity.bench.scenes import MeasuredScene, open_scene, open_town
 from nightcity.chart.agreement import agreement, beyond_bound
-from nightcity.chart.errors import ErrorStatistics, error_statistics
+from nightcity.chart.errors import ErrorStatistics, error_statistics, relative_errors
 from nightcity.chart.runs import PixelTable
 from nightcity.errors import UsageError
 
@@ -28,6 +29,10 @@ EMITTERS = ("isotropic", "lambertian", "pane")
 PIXELS_FOR_P99 = 1000
 _GREEN = 1  # the channels of a window rise and fall together: one of them tells of the noise
 _MORE_PATHS = 32  # of a second look
+# An error estimate is good when it is exceeded in at most this share of the pixels, and its median
+# is at most so many times the median error.
+_MOST_EXCEEDED = 0.01
+_MOST_CAUTION = 10
 _HEADER = (
     "| scene | camera | windows | method | pixels | bias | median | p95 | p99 | max "
     "| relative RMSE | verdict |\n|---|---|---|---|---|---|---|---|---|---|---|---|"
@@ -162,6 +167,7 @@ def _lines(options: AccuracyOptions) -> list[Line]:
             continue
         for tolerance in options.tolerances:
             taken = ("--method", method, "--tolerance", f"{tolerance:g}")
+            taken += ("--aovs", "glow,surface,error") if method == "field" else ()
             lines.append(Line(method, f"{method} {tolerance:g}", taken, tolerance))
     return lines
 
@@ -188,7 +194,11 @@ def _verdict(
             name, worst = ("p99", errors.p99)
         good = worst <= line.tolerance
         relation = "within" if good else "MISSES"
-        return f"{name} {relation} {percent(line.tolerance)}", good
+        verdict = f"{name} {relation} {percent(line.tolerance)}"
+        if found.estimate is None:
+            return verdict, good
+        ledger, holds = _ledger(found.estimate, found, truth)
+        return f"{verdict}; {ledger}", good and holds
     assert found.glow_error is not None  # Monte Carlo always states it
     agreed = agreement(found.glow[:, _GREEN], found.glow_error[:, _GREEN], truth[:, _GREEN])
     figures = (
@@ -197,6 +207,19 @@ def _verdict(
     )
     faults = agreed.faults
     return (f"MISSES ({'; '.join(faults)}): " if faults else "agrees: ") + figures, not faults
+
+
+def _ledger(
+    estimate: NDArray[np.float64], found: PixelTable, truth: NDArray[np.float64]
+) -> tuple[str, bool]:
+    """How good the estimates of the relative errors are, of pixels that glow."""
+    lit = truth.any(axis=1)
+    errors, estimates = relative_errors(found.glow, truth)[lit], estimate[lit]
+    exceeded = float(np.mean(errors > estimates))
+    caution = float(np.median(estimates) / max(np.median(errors), np.finfo(float).tiny))
+    good = exceeded <= _MOST_EXCEEDED and caution <= _MOST_CAUTION
+    relation = "holds" if good else "MISSES"
+    return f"estimate {relation}: exceeded in {percent(exceeded)}, median x {caution:.2g}", good
 
 
 def percent(share: float) -> str:

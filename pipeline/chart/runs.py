@@ -62,23 +62,27 @@ def time_frames(
 
 @dataclass(frozen=True)
 class PixelTable:
-    """Pixels (N, 2), their glow (N, 3), W m^-2 sr^-1, the surfaces seen through the haze (N, 3)
-    and, of Monte Carlo, the standard error of the glow (N, 3)."""
+    """Pixels (N, 2), their glow (N, 3), W m^-2 sr^-1, the surfaces seen through the haze (N, 3);
+    of Monte Carlo the standard error of the glow (N, 3), of a method that keeps a ledger its
+    estimate of the relative error (N,), where it was asked for."""
 
     pixels: NDArray[np.int64]
     glow: NDArray[np.float64]
     surface: NDArray[np.float64]
     glow_error: NDArray[np.float64] | None
+    estimate: NDArray[np.float64] | None = None
 
     @staticmethod
     def joined(tables: Sequence[PixelTable]) -> PixelTable:
         """One after the other; all of the same method, at least one."""
         errors = [table.glow_error for table in tables if table.glow_error is not None]
+        estimates = [table.estimate for table in tables if table.estimate is not None]
         return PixelTable(
             np.concatenate([table.pixels for table in tables]),
             np.concatenate([table.glow for table in tables]),
             np.concatenate([table.surface for table in tables]),
             np.concatenate(errors) if errors else None,
+            np.concatenate(estimates) if estimates else None,
         )
 
 
@@ -97,6 +101,7 @@ def read_pixels(table: Path) -> PixelTable:
         channels("glow"),
         channels("surface"),
         channels("glowError") if "glowError.R" in rows[0] else None,
+        np.array([float(row["error.Y"]) for row in rows]) if "error.Y" in rows[0] else None,
     )
 
 

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +52,22 @@ def test_a_missed_tolerance_is_said() -> None:
     cells, good = compare(GAUSS, table(value), table(truth).glow)
     assert not good
     assert cells[-1] == "p99 MISSES 1 %"
+
+
+@pytest.mark.parametrize(
+    ("estimate", "says"),
+    [
+        (0.01, "estimate holds: exceeded in 0 %, median x 5"),
+        (0.001, "estimate MISSES: exceeded in 100.0 %, median x 0.5"),
+        (0.05, "estimate MISSES: exceeded in 0 %, median x 25"),
+    ],
+)
+def test_an_estimate_is_held_against_the_error(estimate: float, says: str) -> None:
+    truth = np.linspace(1, 2, 1000)
+    found = replace(table(1.002 * truth), estimate=np.full(1000, estimate))
+    cells, good = compare(GAUSS, found, table(truth).glow)
+    assert cells[-1] == f"p99 within 1 %; {says}"
+    assert good == ("holds" in says)
 
 
 def test_path_is_held_against_its_own_error() -> None:
