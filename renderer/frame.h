@@ -66,6 +66,7 @@ struct RenderStatistics {
     std::string lightStorage;       // "uniform" or "storage", as it was, not as asked
     std::string device;
     std::uint64_t deviceMemoryBytes = 0;  // after the last render call
+    std::uint64_t plannedBytes = 0;       // at most, as foretold; 0: was not asked
     std::uint64_t devicePeakBytes = 0;    // the most at any time
     std::map<std::string, std::uint64_t> deviceMemory;  // bytes by name, after the last render call
     std::uint64_t farFieldBytes = 0;     // of these, for Method::field

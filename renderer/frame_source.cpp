@@ -21,6 +21,9 @@ public:
 
     Frame render(const RenderProduct& product, const ProgressCallback& progress) override {
         double baked = 0;
+        if (!syncedFrame_) {
+            delegate_->planMemory(scene_, product, settings_);
+        }
         if (syncedFrame_ != product.frame) {
             const SceneChanges changes{.geometry = !syncedFrame_, .windowState = true};
             delegate_->sync(scene_, product.camera, product.frame, settings_, changes,

@@ -185,7 +185,8 @@ void checkMethod(const Options& options, const Given& given) {
     if (settings.method == Method::march) {
         return;
     }
-    for (const char* name : {"--march-order", "--light-storage", "--primary", "--device", "--validation"}) {
+    for (const char* name : {"--march-order", "--light-storage", "--primary", "--device", "--memory",
+                             "--validation"}) {
         require(!given(name), std::string(name) + " is for --method march; the reference runs on the CPU");
     }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <ostream>
 
 #include <CLI/CLI.hpp>
@@ -46,6 +47,22 @@ glm::uvec2 parseSize(const std::string& text) {
                          "together at most 268435456");
     }
     return {*width, *height};
+}
+
+// Bytes; K, M, G and T are powers of 1024.
+std::uint64_t parseMemory(const std::string& text) {
+    double value = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value);
+    const std::string_view unit(end, std::size_t(last - end));
+    const std::size_t power = unit.empty() ? 0 : std::string_view("KMGT").find(unit) + 1;
+    const double bytes = std::ldexp(value, 10 * int(power));
+    if (error != std::errc() || unit.size() > 1 || (power == 0 && !unit.empty()) ||
+        !(bytes >= 1 && bytes < 1e18)) {
+        throw UsageError("--memory " + text + ": give bytes, or a number with K, M, G or T behind it, "
+                         "like 4G or 500M");
+    }
+    return static_cast<std::uint64_t>(bytes);
 }
 
 Orders parseOrders(const std::string& text) {
@@ -219,6 +236,12 @@ void addRun(CLI::App& app, Options& options, bool& quiet) {
         ->capture_default_str();
     app.add_option("--device", options.device.device, "part of a name, or a number of --list-devices")
         ->type_name("DEVICE");
+    app.add_option_function<std::string>(
+           "--memory",
+           [&](const std::string& text) { options.device.memoryBytes = parseMemory(text); },
+           "most that is held on the device, like 4G: what needs more is refused before work starts, "
+           "with the figure (exit code 4); the picture does not depend on it (default: no limit)")
+        ->type_name("SIZE");
     app.add_flag("--list-devices", options.listDevices, "list the devices and what they lack");
     app.add_flag("--validation", options.device.validation,
                  "Vulkan's validation layers; a message is an error");

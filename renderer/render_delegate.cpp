@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <ranges>
 #include <stdexcept>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "gpu/physical_device.h"
 #include "passes/frame_renderer.h"
 #include "passes/gpu_scene.h"
+#include "passes/memory_plan.h"
 
 namespace nightcity {
 namespace {
@@ -75,7 +77,8 @@ public:
                   gpu::chooseDevice(gpu::describeDevices(instance_.get()), options.device)),
           commands_(device_),
           scene_(device_, commands_),
-          renderer_(device_, commands_) {
+          renderer_(device_, commands_),
+          memoryBytes_(options.memoryBytes) {
         statistics_.device = device_.name();
         if (device_.limits().nanosecondsPerTick == 0) {
             deviceNotes_.push_back(device_.name() +
@@ -86,6 +89,23 @@ public:
                                    ": what the camera sees is found by ray queries");
         }
         instance_.throwIfMessages();
+    }
+
+    std::uint64_t planMemory(const FlatScene& scene, const RenderProduct& product,
+                             const RenderSettings& settings) override {
+        std::optional<FarFieldSettings> field;
+        if (settings.method == Method::field && settings.media) {
+            field = farFieldSettings(settings, scene, product.camera);
+        }
+        const MemoryPlan plan = nightcity::planMemory(device_, scene, product, settings,
+                                                      field ? &*field : nullptr);
+        scene.dropPages();
+        statistics_.plannedBytes = plan.bytes();
+        if (memoryBytes_) {
+            requireMemory(plan, *memoryBytes_, device_.name());
+            device_.ledger().setLimit(*memoryBytes_);
+        }
+        return plan.bytes();
     }
 
     void sync(const FlatScene& scene, const std::string& camera, int frame,
@@ -200,6 +220,7 @@ private:
     gpu::Commands commands_;
     GpuScene scene_;
     FrameRenderer renderer_;
+    std::optional<std::uint64_t> memoryBytes_;
     const FlatScene* flatScene_ = nullptr;
     Frame frame_;
     RenderStatistics statistics_;

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace nightcity {
 
 struct DeviceOptions {
     std::string device;       // part of a name, or an index of listDevices; empty: the best
+    std::optional<std::uint64_t> memoryBytes;  // most that may be held on it; none: no limit
     bool validation = false;  // core and synchronization validation; a message is an error
 };
 
@@ -38,6 +40,10 @@ public:
     static std::unique_ptr<RenderDelegate> create(const DeviceOptions& options);
     virtual ~RenderDelegate() = default;
 
+    // Bytes that the device will hold at most while the product is baked and rendered. Throws
+    // DeviceError with the figure where that is more than DeviceOptions allows.
+    virtual std::uint64_t planMemory(const FlatScene& scene, const RenderProduct& product,
+                                     const RenderSettings& settings) = 0;
     // The scene must outlive the delegate or the next sync. `settings` gives cap and storage.
     // `camera` is that of the shot: where it is at any frame chooses what is baked how finely.
     // `progress` is called while a bake goes on; what it throws ends the bake.

@@ -12,6 +12,9 @@
 
 #include "far_window.glsl"
 
+layout(constant_id = NIGHTCITY_CONSTANT_FAR_PART) const uint kPart = kSumFront;
+layout(constant_id = NIGHTCITY_CONSTANT_FAR_POLYGONS) const uint kPolygons = 1u;
+
 const uint kColumnNodes = kBrickSide;
 const float kNearestPoint = 1e-6;  // m, from a point source: closer nodes count as so far
 const float kExactHazeSides = 3.0;  // of a brick in different hazes: Column.exactHaze
@@ -28,6 +31,7 @@ struct Column {
     float halfSide; // m, of the brick
     bool isCoarse;  // nodes are too far apart for the shape of a pane
     float exactHaze;  // m, of windows nearer than so each node asks for the haze on its way
+    vec2 across;      // of the brick, from (0, 0) to (1, 1)
     vec3 acrossX, acrossY;  // weights of the three places of a layer along each axis
     float ownHaze[kColumnNodes];  // 1/m, without visibility: of the haze that each node lies in
 };
@@ -36,6 +40,22 @@ struct Column {
 struct Hidden {
     uvec4 nodes;
 };
+
+// What each lane of a subgroup has read is taken lane by lane, of one kind after the other: a loop
+// of its own for each kind skips what the others need. A mask has a bit a lane.
+uint lanesAtOnce() {
+    return min(gl_SubgroupSize, 32u);
+}
+
+uint lanesWhere(bool condition) {
+    return subgroupBallot(condition && gl_SubgroupInvocationID < 32u).x;
+}
+
+uint takeLane(inout uint lanes) {
+    uint lane = uint(findLSB(lanes));
+    lanes &= lanes - 1u;
+    return lane;
+}
 
 FarWindow windowOfLane(FarWindow mine, uint lane) {
     FarWindow window;
@@ -49,7 +69,7 @@ FarWindow windowOfLane(FarWindow mine, uint lane) {
     window.isSphere = subgroupBroadcast(mine.isSphere, lane);
     window.faceCount = subgroupBroadcast(mine.faceCount, lane);
     window.extinction = subgroupBroadcast(mine.extinction, lane);
-    if (window.extinction < 0.0) {
+    if (kPart != kSumClusters && window.extinction < 0.0) {
         [[unroll]] for (uint i = 0u; i < 3u * kWayWords; ++i) {
             window.ways[i] = subgroupBroadcast(mine.ways[i], lane);
         }
@@ -139,6 +159,7 @@ uint hiddenByFour(ReadFace face, vec3 point, Column column) {
     return nodesOf(range);
 }
 
+// Of a face with more than four corners.
 uint hiddenByMore(uint index, vec3 point, Column column, vec3 origin) {
     OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
     vec3 corner = faceCorner(face, 0u, origin);
@@ -156,7 +177,7 @@ uint hiddenByMore(uint index, vec3 point, Column column, vec3 origin) {
 Hidden hiddenByGround(FarWindow window, vec3 origin) {
     Hidden hidden;
     [[unroll]] for (uint p = 0u; p < 4u; ++p) {
-        bool below = sceneTable.groundMaterial != kNone &&
+        bool below = kFarVisibility != 0u && sceneTable.groundMaterial != kNone &&
                      origin.z + panePoint(window, p).z < sceneTable.groundHeight;
         hidden.nodes[p] = below ? kAllNodes : 0u;
     }
@@ -176,18 +197,23 @@ Hidden hiddenFromColumn(uint entry, FarWindow window, Column column, vec3 origin
     }
     hidden = hiddenByGround(window, origin);
     uint faces = window.faceCount > kFarFaces ? 0u : window.faceCount;
-    for (uint first = 0u; first < faces; first += gl_SubgroupSize) {
+    for (uint first = 0u; first < faces; first += lanesAtOnce()) {
         uint lane = min(first + gl_SubgroupInvocationID, faces - 1u);
         uint mine = FarEntryArray(bakeTable.entries).at[entry].face[lane];
         ReadFace read = readFace(mine, origin);
-        uint count = min(gl_SubgroupSize, faces - first);
-        for (uint f = 0u; f < count && !hidesAllNodes(hidden); ++f) {
-            ReadFace face = faceOfLane(read, f);
+        bool isThere = gl_SubgroupInvocationID < faces - first;
+        uint few = lanesWhere(isThere && !read.isMore);
+        while (few != 0u && !hidesAllNodes(hidden)) {
+            ReadFace face = faceOfLane(read, takeLane(few));
             [[unroll]] for (uint p = 0u; p < 4u; ++p) {
-                vec3 point = panePoint(window, p);
-                hidden.nodes[p] |=
-                    face.isMore ? hiddenByMore(subgroupBroadcast(mine, f), point, column, origin)
-                                : hiddenByFour(face, point, column);
+                hidden.nodes[p] |= hiddenByFour(face, panePoint(window, p), column);
+            }
+        }
+        uint more = kPolygons == 0u ? 0u : lanesWhere(isThere && read.isMore);
+        while (kPolygons != 0u && more != 0u && !hidesAllNodes(hidden)) {
+            uint face = subgroupBroadcast(mine, takeLane(more));
+            [[unroll]] for (uint p = 0u; p < 4u; ++p) {
+                hidden.nodes[p] |= hiddenByMore(face, panePoint(window, p), column, origin);
             }
         }
     }
@@ -224,6 +250,9 @@ float exactHaze(FarBrick brick, float side) {
 
 // A window that is far enough to be a point with a second-order term.
 bool isQuick(FarWindow window, Column column) {
+    if (kPart == kSumCoarse || kPart == kSumClusters) {
+        return true;
+    }
     vec3 gap = max(abs(window.centre) - column.halfSide, vec3(0.0));
     bool isSmooth = window.extinction >= 0.0 || column.isCoarse ||
                     dot(gap, gap) >= column.exactHaze * column.exactHaze;
@@ -268,10 +297,16 @@ float meanExtinction(FarWindow window, vec3 place, vec3 origin, FarFieldTable fi
 
 // 1/m, the means of the ways to nodes 0, 4 and 8.
 vec3 columnExtinction(FarWindow window, Column column) {
-    if (window.extinction >= 0.0) {
+    if (window.extinction >= 0.0 || kPart == kSumClusters) {
         return vec3(window.extinction);
     }
     vec3 extinction;
+    if (kPart == kSumCoarse) {  // all places of a layer have that of its middle (far_mesh.comp)
+        [[unroll]] for (uint layer = 0u; layer < kWaySide; ++layer) {
+            extinction[layer] = unpackHalf2x16(window.ways[layer * kWayWords]).x;
+        }
+        return extinction;
+    }
     [[unroll]] for (uint layer = 0u; layer < kWaySide; ++layer) {
         vec2 pair[kWayWords];
         [[unroll]] for (uint i = 0u; i < kWayWords; ++i) {
@@ -320,13 +355,15 @@ float quickFluence(QuickColumn quick, Column column, uint i) {
     if (kFarEmitter != kEmitterIsotropic) {
         clear *= max(point.z, 0.0) * inverse * distance;
     }
-    if (kFarEmitter == kEmitterPane) {
+    if (kFarEmitter == kEmitterPane && kPart != kSumClusters) {
         vec2 across = 5.0 * point.xy * point.xy * inverse - 1.0;
         clear *= 1.0 + 0.5 * inverse * dot(quick.secondOrder, across);
     }
     float extinction =
         kFarVisibility == 0u ? column.ownHaze[i] : extinctionAt(quick.extinction, i);
-    return farShare(squared * quick.inverseRadius) * clear * exp(-extinction * distance);
+    // Clusters lie beyond the near radius.
+    float share = kPart == kSumClusters ? 1.0 : farShare(squared * quick.inverseRadius);
+    return share * clear * exp(-extinction * distance);
 }
 
 #endif

@@ -18,28 +18,42 @@ int boxSide(OccluderFace face, vec3 toCorner, vec3 centre, vec3 halfSides) {
     return height >= reach ? 1 : height <= -reach ? -1 : 0;
 }
 
-// Whether every straight way from the box about `light` to the box about the origin crosses the
-// face: the planes through each corner of the one and each edge keep all of the other on
-// their inner side, and nothing of it lies on the face.
-bool hidesAll(OccluderFace face, vec3 origin, vec3 light, vec3 lightHalf, vec3 brickHalf) {
+// What a face hides of a light's box from a brick.
+const uint kHidesNothing = 0u;
+const uint kHidesSome = 1u;
+const uint kHidesAll = 2u;
+// Of the brick's reach across a plane: so much of it rounding may take.
+const float kPlaneSlack = 1e-5;
+
+// Of straight ways from the box about `light` to the box about the origin. All cross the face where
+// the planes through each corner of the one and each edge keep all of the other on their inner
+// side, and nothing of it lies on the face; none does where those of one edge all keep it on their
+// outer side.
+uint whatFaceHides(OccluderFace face, vec3 origin, vec3 light, vec3 lightHalf, vec3 brickHalf) {
     vec3 corner = faceCorner(face, 0u, origin);
     int lightSide = boxSide(face, corner, light, lightHalf);
-    if (lightSide == 0 || boxSide(face, corner, vec3(0.0), brickHalf + kOnFace) != -lightSide) {
-        return false;
+    if (lightSide == 0) {
+        return kHidesSome;
     }
+    bool all = boxSide(face, corner, vec3(0.0), brickHalf + kOnFace) == -lightSide;
     for (uint i = 0u; i < face.cornerCount; ++i) {
         vec3 next = faceCorner(face, i + 1u, origin);
+        bool outside = true;
         for (uint c = 0u; c < 8u; ++c) {
             vec3 side = vec3(uvec3(c, c >> 1, c >> 2) & 1u) * 2.0 - 1.0;
             vec3 from = light + side * lightHalf;
             vec3 plane = cross(corner - from, next - from) * float(lightSide);
-            if (-dot(plane, from) + dot(abs(plane), brickHalf) > 0.0) {
-                return false;
-            }
+            float middle = -dot(plane, from);
+            float reach = dot(abs(plane), brickHalf);
+            all = all && middle + reach <= 0.0;
+            outside = outside && middle > (1.0 + kPlaneSlack) * reach;
+        }
+        if (outside) {
+            return kHidesNothing;
         }
         corner = next;
     }
-    return true;
+    return all ? kHidesAll : kHidesSome;
 }
 
 // Whether one face hides all of the light from all of the brick. `way`: from the brick's
@@ -53,7 +67,7 @@ bool isHidden(FarLight light, vec3 way, vec3 brickCentre, vec3 brickHalf) {
     uint index = nextOccluder(walk, between);
     for (uint asked = 0u; index != kNone && asked < kMostFacesAsked; ++asked) {
         OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
-        if (hidesAll(face, brickCentre, way, light.reach, brickHalf)) {
+        if (whatFaceHides(face, brickCentre, way, light.reach, brickHalf) == kHidesAll) {
             return true;
         }
         index = nextOccluder(walk, between);
@@ -81,8 +95,12 @@ bool findFaces(FarLight light, vec3 way, vec3 brickCentre, vec3 brickHalf, out F
         if (isBehindPane(light, face, faceCorner(face, 0u, brickCentre), way)) {
             continue;
         }
-        if (hidesAll(face, brickCentre, way, light.reach, brickHalf)) {
+        uint hidden = whatFaceHides(face, brickCentre, way, light.reach, brickHalf);
+        if (hidden == kHidesAll) {
             return false;
+        }
+        if (hidden == kHidesNothing) {
+            continue;
         }
         if (entry.faceCount < kFarFaces) {
             entry.face[entry.faceCount++] = index;

@@ -16,6 +16,7 @@ struct MeshColumn {
     uvec4 around;            // bits of the four points about it; some are one where it runs
                              // through them
     vec4 weight[kMeshSide];
+    float perWeight[kBrickSide];  // of each node: 1 / the sum of those about it
 };
 
 // Bits of a layer's word: which points see the light.
@@ -42,13 +43,18 @@ MeshColumn meshColumn(uint column) {
             found.weight[layer][i] = meshWeight(found.around[i], layer);
         }
     }
+    [[unroll]] for (uint i = 0u; i < kBrickSide; ++i) {
+        vec4 weights = found.weight[i / 2u] + found.weight[(i + 1u) / 2u];
+        found.perWeight[i] = 1.0 / dot(weights, vec4(1.0));
+    }
     return found;
 }
 
-MeshSight meshSight(uint entry, MeshColumn column) {
+// `words`: of the entry, one a layer.
+MeshSight meshSight(uint words[kMeshSide], MeshColumn column) {
     MeshSight sight;
     [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
-        uint word = FarEntryArray(bakeTable.entries).at[entry].face[layer];
+        uint word = words[layer];
         vec4 sees = vec4((uvec4(word) >> column.around) & 1u);
         sight.seen[layer] = dot(sees, column.weight[layer]);
     }
@@ -57,10 +63,7 @@ MeshSight meshSight(uint entry, MeshColumn column) {
 
 // From node i of the column.
 float meshShare(MeshSight sight, MeshColumn column, uint i) {
-    uint low = i / 2u;
-    uint high = (i + 1u) / 2u;
-    vec4 weights = column.weight[low] + column.weight[high];
-    return (sight.seen[low] + sight.seen[high]) / dot(weights, vec4(1.0));
+    return (sight.seen[i / 2u] + sight.seen[(i + 1u) / 2u]) * column.perWeight[i];
 }
 
 #endif

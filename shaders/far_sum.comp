@@ -13,54 +13,158 @@
 
 layout(local_size_x = kColumnThreads) in;
 
+layout(constant_id = NIGHTCITY_CONSTANT_FAR_UPDATE) const uint kUpdate = 0u;
+
 const uint kNodesALayer = kBrickSide * kBrickSide;
+
+// What one lane reads of an entry.
+struct ReadEntry {
+    FarWindow window;
+    uint entry;
+    uint mesh[kMeshSide];
+    vec3 emission, baked;  // in units of the brick
+};
 
 // W m^-2 per unit of the brick: of the new state of a window, less the old.
 uvec3 inUnits(float perWatt, vec3 emission, vec3 baked) {
     // Below 2^31: a signed conversion is one instruction where an unsigned one is many.
     uvec3 sum = uvec3(ivec3(perWatt * emission + 0.5));
-    return bakeTable.update == 0u ? sum : sum - uvec3(ivec3(perWatt * baked + 0.5));
+    return kUpdate == 0u ? sum : sum - uvec3(ivec3(perWatt * baked + 0.5));
 }
 
-// Of a light, from the nodes of a column.
-float[kColumnNodes] seenShares(FarWindow window, Hidden hidden, MeshSight sight, MeshColumn mesh,
-                               vec2 across) {
-    bool isCluster = window.faceCount == kCluster;
-    bool isMesh = window.faceCount == kMesh;
-    vec2 ends = seenFromCorners(window.corners, across);
+ReadEntry readEntry(uint entry, vec3 origin, float perUnit) {
+    ReadEntry read;
+    read.window = farWindow(entry, origin);
+    read.entry = entry;
+    [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
+        read.mesh[layer] = FarEntryArray(bakeTable.entries).at[entry].face[layer];
+    }
+    uint light = FarEntryArray(bakeTable.entries).at[entry].light;
+    read.emission = Vec3Array(bakeTable.emission).at[light] * perUnit;
+    read.baked = kUpdate == 0u ? vec3(0.0) : Vec3Array(bakeTable.baked).at[light] * perUnit;
+    return read;
+}
+
+ReadEntry entryOfLane(ReadEntry mine, uint lane) {
+    ReadEntry read;
+    read.window = windowOfLane(mine.window, lane);
+    read.entry = subgroupBroadcast(mine.entry, lane);
+    [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
+        read.mesh[layer] = subgroupBroadcast(mine.mesh[layer], lane);
+    }
+    read.emission = subgroupBroadcast(mine.emission, lane);
+    read.baked = subgroupBroadcast(mine.baked, lane);
+    return read;
+}
+
+bool isMesh(ReadEntry read) {
+    return read.window.faceCount == kMesh;
+}
+
+// Of the pane's four points.
+bvec4 arePointsHidden(FarWindow window, vec3 origin) {
+    return equal(hiddenByGround(window, origin).nodes, uvec4(kAllNodes));
+}
+
+// Whether sight is interpolated, or nothing stands between.
+bool isSightKnown(ReadEntry read, vec3 origin) {
+    return kPart == kSumClusters || kPart == kSumCoarse || isMesh(read) ||
+           (read.window.faceCount == 0u && !any(arePointsHidden(read.window, origin)));
+}
+
+// False where nothing of the light is seen.
+bool isSeen(ReadEntry read, vec3 origin) {
+    if (all(arePointsHidden(read.window, origin))) {
+        return false;
+    }
+    uint seen = read.mesh[0];  // of a cluster its corners
+    [[unroll]] for (uint layer = 1u; layer < kMeshSide && kPart != kSumClusters; ++layer) {
+        seen |= read.mesh[layer];
+    }
+    return seen != 0u || (kPart != kSumClusters && !isMesh(read));
+}
+
+// Of a light whose sight is known, from the nodes of a column.
+float[kColumnNodes] knownShares(ReadEntry read, MeshColumn mesh, vec2 across) {
     float seen[kColumnNodes];
+    if (kPart == kSumClusters) {
+        vec2 ends = seenFromCorners(read.window.corners, across);
+        [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+            seen[i] = mix(ends.x, ends.y, float(i) / float(kBrickSteps));
+        }
+        return seen;
+    }
+    MeshSight sight = meshSight(read.mesh, mesh);
     [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-        float ofCluster = mix(ends.x, ends.y, float(i) / float(kBrickSteps));
-        seen[i] = isCluster ? ofCluster
-                  : isMesh  ? meshShare(sight, mesh, i)
-                            : seenShare(hidden, i);
+        seen[i] = isMesh(read) ? meshShare(sight, mesh, i) : 1.0;
     }
     return seen;
+}
+
+float[kColumnNodes] sharesBeyond(Hidden hidden) {
+    float seen[kColumnNodes];
+    [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+        seen[i] = seenShare(hidden, i);
+    }
+    return seen;
+}
+
+void addQuick(ReadEntry read, float seen[kColumnNodes], Column column, FarFieldTable field,
+              inout uvec3 sum[kColumnNodes]) {
+    QuickColumn quick = quickColumn(read.window, column, field);
+    [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+        sum[i] += inUnits(seen[i] * quickFluence(quick, column, i), read.emission, read.baked);
+    }
+}
+
+// To the sums in memory: which node is at hand is not known when the shader is compiled.
+void addExact(ReadEntry read, float seen[kColumnNodes], Column column, uint firstNode, vec3 origin,
+              FarFieldTable field) {
+    FarWindow window = read.window;
+    [[dont_unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+        vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
+        if (seen[i] > 0.0) {
+            float extinction = kFarVisibility == 0u        ? column.ownHaze[i]
+                               : window.extinction >= 0.0 ? window.extinction
+                                                          : meanExtinction(window, place, origin, field);
+            float perWatt = seen[i] * farFluencePerWatt(window, place, extinction, field);
+            Uvec3Array(bakeTable.sums).at[firstNode + i * kNodesALayer] +=
+                inUnits(perWatt, read.emission, read.baked);
+        }
+    }
+}
+
+Column columnOf(uint thread, FarBrick brick, FarFieldTable field, vec3 origin) {
+    Column column;
+    column.spacing = brickSpacing(field, brick);
+    column.halfSide = 0.5 * brickSide(field, brick);
+    column.foot = column.spacing * vec3(nodePlace(thread)) - column.halfSide;
+    column.isCoarse = brick.scale > 0u;
+    column.exactHaze = exactHaze(brick, brickSide(field, brick));
+    column.across = 0.5 * column.foot.xy / column.halfSide + 0.5;
+    column.acrossX = betweenThree(column.across.x);
+    column.acrossY = betweenThree(column.across.y);
+    [[unroll]] for (uint i = 0u; kFarVisibility == 0u && i < kColumnNodes; ++i) {
+        vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
+        column.ownHaze[i] = hazeAt(place, origin, brick, field);
+    }
+    return column;
 }
 
 void main() {
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
-    uint thread = min(gl_LocalInvocationIndex, kNodesALayer - 1u);
-    Column column;
-    column.spacing = brickSpacing(field, brick);
-    column.halfSide = 0.5 * brickSide(field, brick);
-    column.foot = column.spacing * vec3(nodePlace(thread)) - column.halfSide;
-    vec3 origin = brickCorner(field, brick) + column.halfSide;
-    column.isCoarse = brick.scale > 0u;
-    column.exactHaze = exactHaze(brick, brickSide(field, brick));
-    vec2 across = 0.5 * column.foot.xy / column.halfSide + 0.5;
-    column.acrossX = betweenThree(across.x);
-    column.acrossY = betweenThree(across.y);
-    [[unroll]] for (uint i = 0u; kFarVisibility == 0u && i < kColumnNodes; ++i) {
-        vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
-        column.ownHaze[i] = hazeAt(place, origin, brick, field);
+    if ((kPart == kSumFine && brick.scale > 0u) || (kPart == kSumCoarse && brick.scale == 0u)) {
+        return;
     }
+    uint thread = min(gl_LocalInvocationIndex, kNodesALayer - 1u);
+    vec3 origin = brickCorner(field, brick) + 0.5 * brickSide(field, brick);
+    Column column = columnOf(thread, brick, field, origin);
     MeshColumn mesh = meshColumn(thread);
     float perUnit = 1.0 / FloatArray(bakeTable.units).at[groupBrick()];
     uvec2 counts = entryCounts();
-    uint entries = counts.x + counts.y;
-    Uvec3Array sums = Uvec3Array(bakeTable.sums);
+    uint begin = kPart == kSumClusters ? counts.x : 0u;
+    uint end = kPart == kSumClusters ? counts.x + counts.y : counts.x;
     uint firstNode = groupBrick() * kBrickNodes + thread;
     bool isThere = thread == gl_LocalInvocationIndex;
 
@@ -68,47 +172,41 @@ void main() {
     [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
         sum[i] = uvec3(0u);
     }
-    for (uint first = 0u; first < entries; first += gl_SubgroupSize) {
-        uint count = min(gl_SubgroupSize, entries - first);
-        uint mine = entryAt(first + min(gl_SubgroupInvocationID, count - 1u), counts);
-        FarWindow read = farWindow(mine, origin);
-        uint light = FarEntryArray(bakeTable.entries).at[mine].light;
-        vec3 readEmission = Vec3Array(bakeTable.emission).at[light] * perUnit;
-        vec3 readBaked = Vec3Array(bakeTable.baked).at[light] * perUnit;
-        for (uint e = 0u; e < count; ++e) {
-            FarWindow window = windowOfLane(read, e);
-            uint entry = subgroupBroadcast(mine, e);
-            Hidden hidden = hiddenFromColumn(entry, window, column, origin);
-            if (hidesAllNodes(hidden)) {
-                continue;
+    for (uint first = begin; first < end; first += lanesAtOnce()) {
+        uint number = min(first + gl_SubgroupInvocationID, end - 1u);
+        ReadEntry mine = readEntry(entryAt(number, counts), origin, perUnit);
+        bool isMine = first + gl_SubgroupInvocationID < end && isSeen(mine, origin);
+        bool quick = isQuick(mine.window, column);
+        uint known = lanesWhere(isMine && quick && isSightKnown(mine, origin));
+        while (known != 0u) {
+            ReadEntry read = entryOfLane(mine, takeLane(known));
+            addQuick(read, knownShares(read, mesh, column.across), column, field, sum);
+        }
+        if (kPart == kSumClusters || kPart == kSumCoarse) {
+            continue;
+        }
+        uint hidden = lanesWhere(isMine && quick && !isSightKnown(mine, origin));
+        while (hidden != 0u) {
+            ReadEntry read = entryOfLane(mine, takeLane(hidden));
+            Hidden nodes = hiddenFromColumn(read.entry, read.window, column, origin);
+            if (!hidesAllNodes(nodes)) {
+                addQuick(read, sharesBeyond(nodes), column, field, sum);
             }
-            vec3 emission = subgroupBroadcast(readEmission, e);
-            vec3 baked = subgroupBroadcast(readBaked, e);
-            float seen[kColumnNodes] =
-                seenShares(window, hidden, meshSight(entry, mesh), mesh, across);
-            if (isQuick(window, column)) {
-                QuickColumn quick = quickColumn(window, column, field);
-                [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
-                    sum[i] += inUnits(seen[i] * quickFluence(quick, column, i), emission, baked);
-                }
-                continue;
-            }
-            [[dont_unroll]] for (uint i = 0u; isThere && i < kColumnNodes; ++i) {
-                vec3 place = column.foot + vec3(0.0, 0.0, float(i) * column.spacing);
-                if (seen[i] > 0.0) {
-                    float extinction = kFarVisibility == 0u ? column.ownHaze[i]
-                                       : window.extinction >= 0.0
-                                           ? window.extinction
-                                           : meanExtinction(window, place, origin, field);
-                    float perWatt = seen[i] * farFluencePerWatt(window, place, extinction, field);
-                    sums.at[firstNode + i * kNodesALayer] += inUnits(perWatt, emission, baked);
-                }
+        }
+        uint exact = lanesWhere(isMine && !quick);
+        while (exact != 0u) {
+            ReadEntry read = entryOfLane(mine, takeLane(exact));
+            Hidden nodes = hiddenFromColumn(read.entry, read.window, column, origin);
+            float seen[kColumnNodes] = isMesh(read) ? knownShares(read, mesh, column.across)
+                                                    : sharesBeyond(nodes);
+            if (isThere && !hidesAllNodes(nodes)) {
+                addExact(read, seen, column, firstNode, origin, field);
             }
         }
     }
     [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
         if (isThere) {
-            sums.at[firstNode + i * kNodesALayer] += sum[i];
+            Uvec3Array(bakeTable.sums).at[firstNode + i * kNodesALayer] += sum[i];
         }
     }
 }

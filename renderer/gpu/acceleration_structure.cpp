@@ -19,6 +19,65 @@ VkAccelerationStructureGeometryKHR emptyGeometry(VkGeometryTypeKHR type) {
     return geometry;
 }
 
+VkAccelerationStructureGeometryKHR geometryOf(const TriangleGeometry& triangles) {
+    VkAccelerationStructureGeometryKHR geometry = emptyGeometry(VK_GEOMETRY_TYPE_TRIANGLES_KHR);
+    geometry.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
+    auto& data = geometry.geometry.triangles;
+    data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR;
+    data.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
+    data.vertexData.deviceAddress = triangles.positions;
+    data.vertexStride = 12;
+    data.maxVertex = triangles.vertexCount - 1;
+    data.indexType = VK_INDEX_TYPE_UINT32;
+    data.indexData.deviceAddress = triangles.indices;
+    return geometry;
+}
+
+VkAccelerationStructureGeometryKHR geometryOf(const BoxGeometry& boxes) {
+    VkAccelerationStructureGeometryKHR geometry = emptyGeometry(VK_GEOMETRY_TYPE_AABBS_KHR);
+    // A box may be offered once only: media are counted, not just found.
+    geometry.flags = VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
+    auto& data = geometry.geometry.aabbs;
+    data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
+    data.data.deviceAddress = boxes.boxes;
+    data.stride = sizeof(VkAabbPositionsKHR);
+    return geometry;
+}
+
+// `geometry` must outlive what is returned.
+VkAccelerationStructureBuildGeometryInfoKHR buildInfo(
+    VkAccelerationStructureTypeKHR type, const VkAccelerationStructureGeometryKHR& geometry) {
+    VkAccelerationStructureBuildGeometryInfoKHR info{};
+    info.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR;
+    info.type = type;
+    info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+    info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
+    info.geometryCount = 1;
+    info.pGeometries = &geometry;
+    return info;
+}
+
+VkAccelerationStructureBuildSizesInfoKHR sizesOf(
+    const Device& device, const VkAccelerationStructureBuildGeometryInfoKHR& info,
+    uint32_t primitives) {
+    VkAccelerationStructureBuildSizesInfoKHR sizes{};
+    sizes.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR;
+    device.acceleration().buildSizes(device.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
+                                     &info, &primitives, &sizes);
+    return sizes;
+}
+
+StructureBytes structureBytes(const Device& device,
+                              const VkAccelerationStructureGeometryKHR& geometry,
+                              uint32_t primitives) {
+    if (primitives == 0) {
+        return {};
+    }
+    const VkAccelerationStructureBuildSizesInfoKHR sizes = sizesOf(
+        device, buildInfo(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometry), primitives);
+    return {sizes.accelerationStructureSize, sizes.buildScratchSize};
+}
+
 VkAccelerationStructureInstanceKHR instanceRecord(const StructureInstance& instance) {
     VkAccelerationStructureInstanceKHR record{};
     record.transform.matrix[0][0] = 1;
@@ -43,21 +102,24 @@ void requirePrimitives(const Device& device, const std::string& name, uint64_t c
 
 }  // namespace
 
+StructureBytes triangleStructureBytes(const Device& device, uint32_t vertices,
+                                      uint32_t triangles) {
+    TriangleGeometry geometry;
+    geometry.vertexCount = vertices;
+    geometry.triangleCount = triangles;
+    return structureBytes(device, geometryOf(geometry), triangles);
+}
+
+StructureBytes boxStructureBytes(const Device& device, uint32_t boxes) {
+    return structureBytes(device, geometryOf(BoxGeometry{0, boxes}), boxes);
+}
+
 AccelerationStructure::AccelerationStructure(Device& device, Commands& commands,
                                              const std::string& name,
                                              const TriangleGeometry& triangles)
     : device_(&device) {
     requirePrimitives(device, name, triangles.triangleCount);
-    VkAccelerationStructureGeometryKHR geometry = emptyGeometry(VK_GEOMETRY_TYPE_TRIANGLES_KHR);
-    geometry.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
-    auto& data = geometry.geometry.triangles;
-    data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR;
-    data.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
-    data.vertexData.deviceAddress = triangles.positions;
-    data.vertexStride = 12;
-    data.maxVertex = triangles.vertexCount - 1;
-    data.indexType = VK_INDEX_TYPE_UINT32;
-    data.indexData.deviceAddress = triangles.indices;
+    const VkAccelerationStructureGeometryKHR geometry = geometryOf(triangles);
     build(commands, name, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometry,
           triangles.triangleCount);
 }
@@ -66,13 +128,7 @@ AccelerationStructure::AccelerationStructure(Device& device, Commands& commands,
                                              const std::string& name, const BoxGeometry& boxes)
     : device_(&device) {
     requirePrimitives(device, name, boxes.boxCount);
-    VkAccelerationStructureGeometryKHR geometry = emptyGeometry(VK_GEOMETRY_TYPE_AABBS_KHR);
-    // A box may be offered once only: media are counted, not just found.
-    geometry.flags = VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
-    auto& data = geometry.geometry.aabbs;
-    data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
-    data.data.deviceAddress = boxes.boxes;
-    data.stride = sizeof(VkAabbPositionsKHR);
+    const VkAccelerationStructureGeometryKHR geometry = geometryOf(boxes);
     build(commands, name, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometry,
           boxes.boxCount);
 }
@@ -102,17 +158,8 @@ void AccelerationStructure::build(Commands& commands, const std::string& name,
                                   const VkAccelerationStructureGeometryKHR& geometry,
                                   uint32_t primitives) {
     const AccelerationCalls& calls = device_->acceleration();
-    VkAccelerationStructureBuildGeometryInfoKHR info{};
-    info.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR;
-    info.type = type;
-    info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
-    info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
-    info.geometryCount = 1;
-    info.pGeometries = &geometry;
-    VkAccelerationStructureBuildSizesInfoKHR sizes{};
-    sizes.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR;
-    calls.buildSizes(device_->get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info,
-                     &primitives, &sizes);
+    VkAccelerationStructureBuildGeometryInfoKHR info = buildInfo(type, geometry);
+    const VkAccelerationStructureBuildSizesInfoKHR sizes = sizesOf(*device_, info, primitives);
 
     buffer_ = Buffer(*device_, name, sizes.accelerationStructureSize, MemoryKind::device,
                      VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR);

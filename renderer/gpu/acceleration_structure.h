@@ -25,6 +25,14 @@ struct BoxGeometry {
     uint32_t boxCount = 0;
 };
 
+// Of a bottom-level structure of so many primitives, and of what building it takes for a while.
+struct StructureBytes {
+    uint64_t structure = 0;
+    uint64_t scratch = 0;
+};
+StructureBytes triangleStructureBytes(const Device& device, uint32_t vertices, uint32_t triangles);
+StructureBytes boxStructureBytes(const Device& device, uint32_t boxes);
+
 class AccelerationStructure;
 
 struct StructureInstance {

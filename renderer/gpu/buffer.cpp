@@ -96,6 +96,7 @@ void Buffer::allocate(const std::string& name, MemoryKind kind) {
     info.pNext = &flags;
     info.allocationSize = requirements.size;
     info.memoryTypeIndex = type;
+    device_->requireRoom(name, requirements.size);
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check(vkAllocateMemory(device_->get(), &info, nullptr, &memory), "vkAllocateMemory",
           name + ", " + mebibytes(requirements.size));

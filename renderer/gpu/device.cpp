@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "errors.h"
 #include "gpu/result.h"
 
 namespace nightcity::gpu {
@@ -21,6 +22,16 @@ Device::Device(VkInstance instance, const DeviceDescription& description)
 
 Device::~Device() {
     vkDestroyDevice(device_, nullptr);
+}
+
+void Device::requireRoom(const std::string& name, uint64_t bytes) const {
+    if (!ledger_.hasRoomFor(bytes)) {
+        const auto mebibytes = [](uint64_t size) { return std::to_string((size >> 20) + 1) + " MiB"; };
+        throw DeviceError("'" + name + "' takes " + mebibytes(bytes) + " beside the " +
+                          mebibytes(ledger_.bytes()) + " that are held, more than the " +
+                          mebibytes(ledger_.limit()) +
+                          " that --memory allows: allow more, or render a smaller --size or city");
+    }
 }
 
 void Device::createDevice() {

@@ -63,6 +63,8 @@ public:
 
     const MemoryLedger& ledger() const { return ledger_; }
     MemoryLedger& ledger() { return ledger_; }
+    // Throws DeviceError where the ledger has no room for so many bytes more.
+    void requireRoom(const std::string& name, uint64_t bytes) const;
 
 private:
     void createDevice();

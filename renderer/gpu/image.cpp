@@ -53,6 +53,7 @@ void Image::allocate(const std::string& name) {
     info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     info.allocationSize = requirements.size;
     info.memoryTypeIndex = findLocalMemory(*device_, requirements.memoryTypeBits, name);
+    device_->requireRoom(name, requirements.size);
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check(vkAllocateMemory(device_->get(), &info, nullptr, &memory), "vkAllocateMemory", name);
     memory_ = {device_->get(), memory};

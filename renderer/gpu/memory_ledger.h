@@ -28,6 +28,10 @@ public:
         bytes_ -= bytes;
     }
 
+    void setLimit(uint64_t bytes) { limit_ = bytes; }
+    uint64_t limit() const { return limit_; }
+    bool hasRoomFor(uint64_t bytes) const { return bytes <= limit_ - std::min(bytes_, limit_); }
+
     uint64_t bytes() const { return bytes_; }          // of all that is alive
     uint64_t peakBytes() const { return peakBytes_; }  // the most at any time
     const std::map<std::string, uint64_t>& byName() const { return byName_; }  // of what is alive
@@ -36,6 +40,7 @@ private:
     std::map<std::string, uint64_t> byName_;
     uint64_t bytes_ = 0;
     uint64_t peakBytes_ = 0;
+    uint64_t limit_ = UINT64_MAX;
 };
 
 }  // namespace nightcity::gpu

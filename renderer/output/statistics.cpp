@@ -112,6 +112,7 @@ void writeStatistics(const std::filesystem::path& file, const StatisticsReport& 
         {"timing", times},
         {"memory",
          {{"device_bytes", last.deviceMemoryBytes},
+          {"planned_bytes", last.plannedBytes},
           {"device_peak_bytes", last.devicePeakBytes},
           {"device_bytes_by_name", last.deviceMemory},
           {"far_field_bytes", last.farFieldBytes},

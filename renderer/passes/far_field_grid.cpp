@@ -15,6 +15,7 @@
 #include "passes/box_nodes.h"
 #include "passes/far_media.h"
 #include "passes/pass_pipelines.h"
+#include "scene/convex_faces.h"
 
 namespace nightcity {
 namespace {
@@ -46,7 +47,34 @@ float skyHeight(const FlatScene& scene) {
     return height + 1;
 }
 
+bool hasSpheres(const FlatScene& scene) {
+    return std::any_of(scene.windows.begin(), scene.windows.end(), [](const Window& window) {
+        return (window.flags & kWindowSphere) != 0;
+    });
+}
+
+// Whether some opaque face has more than four corners.
+bool hasPolygons(const FlatScene& scene) {
+    const ConvexFaces faces(scene);
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+        if (faces.face(i).size() > 4) {
+            return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
+
+FarDetail farDetail(const FlatScene& scene, const FarFieldSettings& settings) {
+    return {alignLattice(scene.mediaBoxes, settings.spacing, settings.emitter), settings.eyes,
+            settings.mostBricks, settings.memoryBytes};
+}
+
+std::uint64_t farEntryBytes(std::uint64_t windows) {
+    const std::uint64_t first = std::uint64_t{kFirstCapacity} * kBatchBricks * sizeof(FarEntry);
+    return windows <= kFirstCapacity ? first : std::max(first, kEntryBytes);
+}
 
 template <typename T>
 uvec2 FarFieldGrid::uploadArray(const char* name, std::span<const T> data) {
@@ -75,13 +103,16 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
     }
     settings_ = settings;
     const std::vector<FarMedium> media = mergeMedia(scene);
-    const LatticeAlignment nodes =
-        alignLattice(scene.mediaBoxes, settings.spacing, settings.emitter);
-    layout_ = layoutFarField(
-        media, {nodes, settings_.eyes, settings.mostBricks, settings.memoryBytes});
+    layout_ = layoutFarField(media, farDetail(scene, settings_));
     const FarCut cut(layout_, {settings.emitter, settings.nearRadius, settings.spread});
     lights_ = buildFarLights(scene, media, cut, settings.emitter);
     scene.dropPages();
+    const bool polygons = hasPolygons(scene), spheres = hasSpheres(scene);
+    if (polygons != hasPolygons_ || spheres != hasSpheres_) {
+        hasPolygons_ = polygons;
+        hasSpheres_ = spheres;
+        sumPasses_ = {};
+    }
     bake_.skyHeight = skyHeight(scene);
     for (const FarMedium& medium : media) {
         bake_.thickest = std::max(bake_.thickest, medium.extinction);
@@ -100,9 +131,32 @@ void FarFieldGrid::makePipelines(const FarFieldSettings& settings) {
     sides_ = makePipeline(device_, "far sides", kFarSidesSpirv, {}, constants);
     sight_ = makePipeline(device_, "far sight", kFarSightSpirv, {}, constants);
     mesh_ = makePipeline(device_, "far mesh", kFarMeshSpirv, {}, constants);
-    sum_ = makePipeline(device_, "far sum", kFarSumSpirv, {}, constants);
     finish_ = makePipeline(device_, "far finish", kFarFinishSpirv, {}, constants);
     hasPipelines_ = true;
+    sumPasses_ = {};
+}
+
+// One pass for each kind of entries there are: none has to be able to do what others need.
+std::vector<FarFieldGrid::SumPass> FarFieldGrid::makeSumPasses(bool update) {
+    std::vector<SumPass> passes;
+    const auto add = [&](const char* name, std::uint32_t part) {
+        const std::vector<std::uint32_t> constants{
+            emitterConstant(settings_.emitter),
+            settings_.visibility == Visibility::full ? 1u : 0u,
+            settings_.keepMean ? 1u : 0u,
+            part,
+            update ? 1u : 0u,
+            hasPolygons_ ? 1u : 0u};
+        passes.push_back({name, makePipeline(device_, name, kFarSumSpirv, {}, constants)});
+    };
+    if (hasSpheres_) {
+        add("far sum", kSumFront);
+    } else {
+        add("far sum", kSumFine);
+        add("far sum coarse", kSumCoarse);
+    }
+    add("far sum clusters", kSumClusters);
+    return passes;
 }
 
 void FarFieldGrid::uploadLayout(std::span<const FarMedium> media) {
@@ -260,6 +314,10 @@ void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::
     commands_.upload(bakedEmission_, baked_.data(), baked_.size() * sizeof(vec3));
     commands_.upload(changed_, changed.data(), changed.size() * 4);
     bake_.update = hasSums_ ? 1 : 0;
+    std::vector<SumPass>& passes = sumPasses_[bake_.update];
+    if (passes.empty()) {
+        passes = makeSumPasses(hasSums_);
+    }
     hasSums_ = false;  // until all bricks have the new state
     writeTables();
     forBatches(progress, kSidesShare, kSumsShare,
@@ -287,7 +345,9 @@ std::uint32_t FarFieldGrid::bakeBatch(VkDeviceAddress sceneTable, Batch batch) {
         return 0;
     }
     dispatch("far mesh", mesh_, push);
-    dispatch("far sum", sum_, push);
+    for (const SumPass& pass : sumPasses_[bake_.update]) {
+        dispatch(pass.name, pass.pipeline, push);
+    }
     return batch.count;
 }
 

@@ -5,6 +5,7 @@
 // scene, baked for the windows that are on, updated when others are.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -42,6 +43,12 @@ struct FarFieldSettings {
 // Called between dispatches with what is done of a bake, from 0 to 1; what it throws ends the bake.
 using BakeProgress = std::function<void(double)>;
 
+// What the layout of the bricks asks for. The settings must outlive it.
+FarDetail farDetail(const FlatScene& scene, const FarFieldSettings& settings);
+
+// Of the entries of a batch, for so many windows: more only where one brick alone has more.
+std::uint64_t farEntryBytes(std::uint64_t windows);
+
 class FarFieldGrid {
 public:
     FarFieldGrid(gpu::Device& device, gpu::Commands& commands)
@@ -67,6 +74,11 @@ public:
     const std::vector<PassTime>& passTimes() const { return passTimes_; }
 
 private:
+    // Adds one kind of entries to the sums (kSumFront and so on).
+    struct SumPass {
+        const char* name;
+        gpu::ComputePipeline pipeline;
+    };
     // Bricks of one batch.
     struct Batch {
         std::uint32_t first, count;
@@ -76,6 +88,7 @@ private:
     uvec2 uploadArray(const char* name, std::span<const T> data);
     uvec2 allocate(const char* name, std::uint64_t bytes);
     void makePipelines(const FarFieldSettings& settings);
+    std::vector<SumPass> makeSumPasses(bool update);
     void uploadLayout(std::span<const FarMedium> media);
     void uploadLights();
     // Visits all bricks in batches that take the device a moment each: so long no process waits
@@ -112,7 +125,10 @@ private:
     std::vector<PassTime> passTimes_;
     FarFieldTable contents_{};
     FarBakeTable bake_{};
-    gpu::ComputePipeline sides_, sight_, mesh_, sum_, finish_;
+    gpu::ComputePipeline sides_, sight_, mesh_, finish_;
+    std::array<std::vector<SumPass>, 2> sumPasses_;  // of full bakes, of updates
+    bool hasPolygons_ = false;  // faces of more than four corners
+    bool hasSpheres_ = false;
 };
 
 }  // namespace nightcity

@@ -217,6 +217,14 @@ std::vector<FrameRenderer::Band> FrameRenderer::bandsOf(const RenderProduct& pro
     return bands;
 }
 
+std::uint64_t FrameRenderer::mostRays(const RenderProduct& product, Method method) {
+    std::uint32_t most = 0;
+    for (const Band& band : bandsOf(product, method)) {
+        most = std::max(most, band.pixels);
+    }
+    return groupsFor(most) * kGroupSize;
+}
+
 void FrameRenderer::copyBand(const Band& band, const RenderProduct& product, Method method,
                              Frame& frame) {
     const std::uint32_t aovs = product.aovs & pipelines_->choice.aovs;
@@ -253,12 +261,8 @@ void FrameRenderer::preparePipelines(const GpuScene& scene, const RenderProduct&
 
 void FrameRenderer::prepareBand(Work& work, const CameraFrame& camera,
                                 const RenderProduct& product) {
-    std::uint32_t most = 0;
-    for (const Band& band : work.bands) {
-        most = std::max(most, band.pixels);
-    }
-    const std::uint32_t rays = groupsFor(most) * kGroupSize;
     const Method method = work.settings.method;
+    const auto rays = static_cast<std::uint32_t>(mostRays(product, method));
     if (!band_ || band_->rays() != rays || band_->method() != method) {
         band_.reset();
         band_ = std::make_unique<BandBuffers>(device_, rays, method);

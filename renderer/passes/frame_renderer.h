@@ -34,6 +34,9 @@ class FrameRenderer {
 public:
     FrameRenderer(gpu::Device& device, gpu::Commands& commands);
 
+    // Of a band, at most: what its records are made for.
+    static std::uint64_t mostRays(const RenderProduct& product, Method method);
+
     // To be called when the scene was synced: pipelines and bindings may be stale.
     void sceneChanged() { bound_ = false; }
     // `camera` as it is at the product's frame. Fills `frame`, which has the product's size;

@@ -15,6 +15,17 @@ NIGHTCITY_BEGIN
 #define NIGHTCITY_CONSTANT_FAR_VISIBILITY 1  // 1: opaque surfaces hide windows
 // Of far_finish.comp: 1: nodes are such that straight interpolation keeps the mean over a cell
 #define NIGHTCITY_CONSTANT_FAR_MEAN 2
+// Of far_sum.comp.
+#define NIGHTCITY_CONSTANT_FAR_PART 3      // kSumFront and so on: the entries that it adds
+#define NIGHTCITY_CONSTANT_FAR_UPDATE 4    // 1: as FarBakeTable.update
+#define NIGHTCITY_CONSTANT_FAR_POLYGONS 5  // 1: some faces have more than four corners
+
+// A device that runs both sides of every branch pays for what an entry might have needed: so each
+// kind has its own dispatch.
+NIGHTCITY_CONST uint kSumFront = 0u;     // all but those of kCluster
+NIGHTCITY_CONST uint kSumFine = 1u;      // of these, those of the smallest bricks
+NIGHTCITY_CONST uint kSumCoarse = 2u;    // those of larger ones, in a scene without spheres
+NIGHTCITY_CONST uint kSumClusters = 3u;  // those of kCluster
 
 NIGHTCITY_CONST uint kBrickSideWords = (kBrickNodes + 31u) / 32u;
 NIGHTCITY_CONST uint kColumnThreads = 96u;  // at least the columns of a brick

@@ -58,7 +58,8 @@ TEST(Options, EveryOptionArrives) {
          "--march-order", "steps", "--light-cap", "40", "--light-storage", "storage",
          "--pixel-samples", "16", "--filter", "gauss", "--media", "off", "--seed", "7", "--aovs",
          "beauty,glow", "--device", "llvm", "--validation", "--stats", "s.json",
-         "--skip-existing", "--progress", "lines", "--tile", "2/3"});
+         "--skip-existing", "--progress", "lines", "--tile", "2/3",
+         "--memory", "2.5G"});
     EXPECT_EQ(options.size, glm::uvec2(64, 32));
     EXPECT_EQ(options.frames, (std::vector<int>{1, 3, 5, 9}));
     EXPECT_EQ(options.settings.marchOrder, MarchOrder::steps);
@@ -74,6 +75,7 @@ TEST(Options, EveryOptionArrives) {
     EXPECT_EQ(options.progress, ProgressStyle::lines);
     EXPECT_EQ(options.tile->number, 2u);
     EXPECT_EQ(options.tile->count, 3u);
+    EXPECT_EQ(options.device.memoryBytes, 5ull << 29);
 }
 
 TEST(Options, TheModelChoosesTheMethod) {
@@ -162,6 +164,10 @@ TEST(Options, BadValuesAreRefused) {
     EXPECT_REFUSED("--exposure", "s", "-o", "a.png", "--exposure", "nan");
     EXPECT_REFUSED("albedo", "s", "-o", "a.exr", "--aovs", "albedo");
     EXPECT_REFUSED(".exr, .png, .jpg or .csv", "s", "-o", "a.tif");
+    for (const char* memory : {"", "G", "-1G", "0", "4GB", "4g", "nan", "1e30", "4G "}) {
+        EXPECT_REFUSED("--memory", "s", "-o", "a.exr", "--memory", memory);
+    }
+    EXPECT_REFUSED("--memory is for", "s", "-o", "a.exr", "--method", "reference", "--memory", "4G");
     EXPECT_REFUSED("--tile is for .exr", "s", "-o", "a.png", "--tile", "1/2");
     EXPECT_REFUSED("--list-missing", "s", "-o", "a.csv", "--pixels", "9", "--list-missing");
     EXPECT_REFUSED("--wobble", "s", "-o", "a.exr", "--wobble");
