@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 
 #include "aovs.h"
@@ -231,10 +232,13 @@ private:
         if (first) {
             source_ = makeFrameSource(scene_, options_);
         }
+        const std::clock_t before = std::clock();
         Frame frame = source_->render(product_, [&](double share) {
             progress_.update(name, share);
             stopIfAsked();
         });
+        report_.processorMilliseconds.push_back(1e3 * double(std::clock() - before) /
+                                                CLOCKS_PER_SEC);
         report_.frames.push_back(source_->statistics());
         const bool updated = !first && product_.frame != renderedFrame_;
         renderedFrame_ = product_.frame;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The nearest opaque surface of every ray of a band, and the light that it
-// sends to the camera: as records for the passes that follow, or, where there
-// is no haze, straight into the images.
+// sends to the camera: as records for the passes that follow (without normals where none of
+// them asks), or, where there is no haze, straight into the images.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -31,7 +31,11 @@ void main() {
     SurfaceRecord record = seenSurface(pixel, cameraRay(pixel, push.sampleIndex));
     if (kTask == kTaskImages) {
         addSample(index, record, vec3(0.0), 1.0, -1);
-    } else {
+    } else if (isKept(kAovNormal)) {
         SurfaceRecordArray(frameTable.surfaces).at[index] = record;
+    } else {
+        SurfaceRecordArray(frameTable.surfaces).at[index].radiance = record.radiance;
+        SurfaceRecordArray(frameTable.surfaces).at[index].depth = record.depth;
+        SurfaceRecordArray(frameTable.surfaces).at[index].primitive = record.primitive;
     }
 }

@@ -53,6 +53,10 @@ nlohmann::ordered_json timing(const StatisticsReport& report) {
     for (const RenderStatistics& frame : steady) {
         milliseconds.push_back(frame.frameMilliseconds);
     }
+    // The first as well where there is no other, as steadyFrames has it.
+    const std::vector<double> processor(report.processorMilliseconds.end() -
+                                            std::ptrdiff_t(steady.size()),
+                                        report.processorMilliseconds.end());
     nlohmann::ordered_json passes = nlohmann::ordered_json::object();
     for (const PassTime& pass : report.frames.back().passes) {
         passes[pass.name] = medianOfPass(steady, pass.name);
@@ -70,6 +74,9 @@ nlohmann::ordered_json timing(const StatisticsReport& report) {
             {"steady_frame_ms", quantile(milliseconds, 0.5)},
             {"steady_frames", milliseconds.size()},
             {"spread_ms", quantile(milliseconds, 0.75) - quantile(milliseconds, 0.25)},
+            {"worst_frame_ms", quantile(milliseconds, 1)},
+            {"frame_processor_ms", quantile(processor, 0.5)},
+            {"worst_frame_processor_ms", quantile(processor, 1)},
             {"passes", passes}};
 }
 

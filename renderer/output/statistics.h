@@ -25,6 +25,7 @@ struct StatisticsReport {
     double bakeMilliseconds = 0;
     std::vector<double> updateMilliseconds;  // what later frames of a shot changed of the bake
     std::vector<RenderStatistics> frames;  // one a render call, in order; at least one
+    std::vector<double> processorMilliseconds;  // of the process, one a render call
     std::vector<std::string> notes;
 };
 

@@ -91,8 +91,10 @@ bool PipelineChoice::readsPages() const {
 
 PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings)
     : choice(settings) {
+    const bool knowsReaders = choice.method == Method::field && !choice.lightsSurfaces();
+    const bool records = choice.task == kTaskRecords;
     surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructure},
-                           {choice.task, choice.aovs});
+                           {choice.task, records && !knowsReaders ? kAllAovs : choice.aovs});
     if (choice.task != kTaskRecords) {
         return;
     }
