@@ -12,8 +12,8 @@ NIGHTCITY_BEGIN
 
 NIGHTCITY_CONST int kGaussMost = 12;  // nodes of the largest rule
 
-// Node, weight, node, weight, ... A device may look through all of a program's own array for one
-// number of it (lavapipe does): NIGHTCITY_GAUSS_PAIRS then names a copy in memory.
+// Node, weight, node, weight, ... On lavapipe frames of --method field are a good deal slower with a
+// program's own array than with a copy in memory, which NIGHTCITY_GAUSS_PAIRS then names.
 #ifndef NIGHTCITY_GAUSS_PAIRS
 #define NIGHTCITY_GAUSS_PAIRS kGaussPairs
 NIGHTCITY_CONST float kGaussPairs[156] = {
