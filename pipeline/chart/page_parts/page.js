@@ -192,7 +192,7 @@ const COLUMNS = [
   ["setting", "setting", (v) => v], ["model", "model", (v) => v],
   ["steady_frame_ms", "frame", milliseconds], ["ratio_to_surface", "to surface", digits],
   ["bake_ms", "bake", milliseconds], ["memory_bytes", "memory", megabytes],
-  ...["bias", "median", "p95", "p99", "max", "relative_rmse"].map((s) => [s, s.replace("_", " "), percent]),
+  ...["bias", "median", "p95", "p99", "max", "relative_rmse"].map((s) => [s, s === "relative_rmse" ? "RMSE" : s, percent]),
   ["flip", "FLIP", (v) => v.toPrecision(2)],
 ];
 
