@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace nightcity {
@@ -23,6 +24,21 @@ float atLeast(double value) {
     return nearest >= value ? nearest : std::nextafter(nearest, kInfinity);
 }
 
+// Of the tree over so many boxes: exactly, for a large city's would be copied as it grows.
+std::size_t nodesFor(std::size_t boxes, std::map<std::size_t, std::size_t>& known) {
+    if (boxes <= kLeafBoxes) {
+        return boxes == 1 ? 1 : boxes + 1;
+    }
+    const auto found = known.find(boxes);  // a level has parts of two sizes at most
+    if (found != known.end()) {
+        return found->second;
+    }
+    const std::size_t half = boxes / 2;
+    const std::size_t nodes = 1 + nodesFor(half, known) + nodesFor(boxes - half, known);
+    known.emplace(boxes, nodes);
+    return nodes;
+}
+
 class Builder {
 public:
     Builder(std::size_t count, const std::function<Bounds(std::uint32_t)>& boundsOf)
@@ -33,7 +49,8 @@ public:
             const Bounds bounds = boundsOf(i);
             middles_.push_back(bounds.lo + bounds.hi);
         }
-        nodes_.reserve(count + count / 2 + 1);
+        std::map<std::size_t, std::size_t> known;
+        nodes_.reserve(nodesFor(count, known));
     }
 
     std::vector<BoxNode> build() {

@@ -153,7 +153,12 @@ NearExtremes NearPanes::extremes() const {
 }
 
 std::vector<BoxNode> NearPanes::buildTree() const {
+    constexpr std::uint32_t kBetweenDrops = 1u << 20;  // windows
+    std::uint32_t asked = 0;
     return buildBoxNodes(scene_.windows.size(), [&](std::uint32_t i) {
+        if (++asked % kBetweenDrops == 0) {
+            scene_.dropPages();
+        }
         const NearPane found = pane(i);
         const bool isPane = emitter_ == Emitter::pane && !isSphere(found);
         return reachOf(found, double(radius_), isPane ? 0 : double(found.halfV));
