@@ -7,6 +7,7 @@
 
 #include "far_field.glsl"
 #include "far_bake.h"
+#include "transport/near_far_split.h"
 
 layout(constant_id = NIGHTCITY_CONSTANT_FAR_EMITTER) const uint kFarEmitter = kEmitterPane;
 layout(constant_id = NIGHTCITY_CONSTANT_FAR_VISIBILITY) const uint kFarVisibility = 1u;
@@ -43,6 +44,12 @@ uvec2 entryCounts() {
 uint entryAt(uint number, uvec2 counts) {
     uint skipped = number < counts.x ? 0u : bakeTable.entryCapacity - counts.x - counts.y;
     return groupInBatch() * bakeTable.entryCapacity + skipped + number;
+}
+
+// m, from a window beyond which a brick holds its light as it is.
+float splitRadius(FarFieldTable field, FarBrick brick) {
+    return isBlurred(field, brick.scale) ? blurRadius(field.nearRadius, brickSpacing(field, brick))
+                                         : field.nearRadius;
 }
 
 // Of a node along each axis, from 0.

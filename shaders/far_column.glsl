@@ -33,6 +33,7 @@ struct Column {
     float exactHaze;  // m, of windows nearer than so each node asks for the haze on its way
     vec2 across;      // of the brick, from (0, 0) to (1, 1)
     vec3 acrossX, acrossY;  // weights of the three places of a layer along each axis
+    BakedShare baked;
     float ownHaze[kColumnNodes];  // 1/m, without visibility: of the haze that each node lies in
 };
 
@@ -287,7 +288,6 @@ struct QuickColumn {
     vec2 secondOrder;   // half sides^2, m^2
     vec3 extinction;    // 1/m, mean of the ways to nodes 0, 4 and 8
     float perDistance;  // of the solid angle and its like: times height / d^3, per watt
-    float inverseRadius;  // 1 / R^2
 };
 
 float meanExtinction(FarWindow window, vec3 place, vec3 origin, FarFieldTable field) {
@@ -331,7 +331,7 @@ float extinctionAt(vec3 extinction, uint i) {
                    : mix(extinction.y, extinction.z, 0.25 * float(i) - 1.0);
 }
 
-QuickColumn quickColumn(FarWindow window, Column column, FarFieldTable field) {
+QuickColumn quickColumn(FarWindow window, Column column) {
     vec3 way = column.foot - window.centre;
     QuickColumn quick;
     quick.foot = vec3(dot(way, window.u), dot(way, window.v), dot(way, window.normal));
@@ -341,11 +341,10 @@ QuickColumn quickColumn(FarWindow window, Column column, FarFieldTable field) {
                             : vec2(0.0);
     quick.extinction = columnExtinction(window, column);
     quick.perDistance = kFarEmitter == kEmitterIsotropic ? 0.5 / kTurn : 2.0 / kTurn;
-    quick.inverseRadius = 1.0 / (field.nearRadius * field.nearRadius);
     return quick;
 }
 
-// m^-2: far part of the fluence per watt at node i.
+// m^-2: baked part of the fluence per watt at node i.
 float quickFluence(QuickColumn quick, Column column, uint i) {
     vec3 point = quick.foot + float(i) * quick.step;
     float squared = max(dot(point, point), kNearestPoint * kNearestPoint);
@@ -357,12 +356,12 @@ float quickFluence(QuickColumn quick, Column column, uint i) {
     }
     if (kFarEmitter == kEmitterPane && kPart != kSumClusters) {
         vec2 across = 5.0 * point.xy * point.xy * inverse - 1.0;
-        clear *= 1.0 + 0.5 * inverse * dot(quick.secondOrder, across);
+        clear *= max(1.0 + 0.5 * inverse * dot(quick.secondOrder, across), 0.0);
     }
     float extinction =
         kFarVisibility == 0u ? column.ownHaze[i] : extinctionAt(quick.extinction, i);
     // Clusters lie beyond the near radius.
-    float share = kPart == kSumClusters ? 1.0 : farShare(squared * quick.inverseRadius);
+    float share = kPart == kSumClusters ? 1.0 : shareAt(column.baked, squared);
     return share * clear * exp(-extinction * distance);
 }
 

@@ -38,6 +38,11 @@ float brickSpacing(FarFieldTable field, FarBrick brick) {
     return brickSide(field, brick) / float(kBrickSteps);
 }
 
+// Whether its nodes hold all of the fluence, not the far part alone.
+bool isBlurred(FarFieldTable field, uint scale) {
+    return scale >= field.blurredScale;
+}
+
 // Lower corner, m.
 vec3 brickCorner(FarFieldTable field, FarBrick brick) {
     return field.origin + vec3(brick.cell) * field.cellSide;

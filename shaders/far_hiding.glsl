@@ -121,6 +121,16 @@ vec3 partOf(uint index, uint bits) {
     return WindowArray(sceneTable.windows).at[light.window].centre;
 }
 
+// Where it is asked what a place sees. One behind all panes of a light would see nothing, and take as
+// much from the nodes before the panes about it, though it is the cosine that darkens there:
+// the nearest place `before` them, m, speaks for it.
+vec3 askedPlace(vec3 place, FarLight light, vec3 centre, float before) {
+    float coneSin = sqrt(max(1.0 - light.coneCos * light.coneCos, 0.0));
+    float height = dot(light.axis, place - centre);
+    bool isBehind = light.coneCos >= 0.0 && height <= -coneSin * length(place - centre);
+    return isBehind ? place + (before - height) * light.axis : place;
+}
+
 // Quarters of the light that a place sees.
 uint seenFrom(vec3 place, uint index, uint bits, vec3 brickCentre) {
     uint seen = 4u;
@@ -135,6 +145,8 @@ uint seenFrom(vec3 place, uint index, uint bits, vec3 brickCentre) {
 // others from each neighbour but the same for all bricks of a corner. For a corner in a solid the
 // others speak; where all are, the brick's centre.
 uint seenFromCorners(uint index, FarBrick brick, vec3 brickCentre, vec3 brickHalf) {
+    FarLight light = FarLightArray(bakeTable.lights).at[index];
+    float spacing = 2.0 * brickHalf.x / float(kBrickSteps);
     uint corners = 0u;
     uint sum = 0u;
     uint inAir = 0u;
@@ -149,7 +161,9 @@ uint seenFromCorners(uint index, FarBrick brick, vec3 brickCentre, vec3 brickHal
         }
         uvec3 parity = ((brick.cell >> brick.scale) + offset) & 1u;
         uint bits = parity.x | parity.y << 1 | parity.z << 2;
-        uint seen = seenFrom((vec3(offset) * 2.0 - 1.0) * brickHalf, index, bits, brickCentre);
+        vec3 place = askedPlace((vec3(offset) * 2.0 - 1.0) * brickHalf, light,
+                                light.centre - brickCentre, spacing);
+        uint seen = seenFrom(place, index, bits, brickCentre);
         corners |= seen << (4u * c);
         sum += seen;
         inAir += 1u;

@@ -9,28 +9,24 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "far_hiding.glsl"
+#include "far_mesh.glsl"
 #include "far_window.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
 const float kShortestWay = 1e-6;  // m
 
+shared uint solidPoints[kMeshSide];  // of the mesh, a word a layer: those in no haze
+shared uint askedPoints[kMeshSide];  // the others see what one of these does
+shared uvec2 askedRows[kMeshSide * kMeshSide];  // y and z, those with any asked point
+shared uint askedRowCount;
 shared vec3 wayEnds[kWaySide * kWaySide * kWaySide];  // m, from the brick's centre
 
 uint firstEntry() {
     return groupInBatch() * bakeTable.entryCapacity;
 }
 
-// Whether a place is behind all panes of a light.
-bool isBehind(FarLight light, vec3 way) {
-    float coneSin = sqrt(max(1.0 - light.coneCos * light.coneCos, 0.0));
-    return light.coneCos >= 0.0 && dot(light.axis, way) <= -coneSin * length(way);
-}
-
 bool sees(vec3 place, uvec3 point, FarLight light, uint index, FarWindow window, vec3 origin) {
-    if (isBehind(light, place - window.centre)) {
-        return false;
-    }
     uvec3 parity = point & 1u;
     vec3 part = light.second == 0u
                     ? panePoint(window, parity.x | (parity.y ^ parity.z) << 1)
@@ -40,33 +36,98 @@ bool sees(vec3 place, uvec3 point, FarLight light, uint index, FarWindow window,
     return !isBelow && !isHiddenByAny(part, place, origin);
 }
 
-// Of a row of points along x, one every `stride`: threads side by side walk much the same ways.
-uint rowSees(uint entry, uvec2 row, uint stride, FarBrick brick, float side, vec3 origin) {
+bool isIn(uint word, uvec3 point) {
+    return (word >> point.y * kMeshSide + point.x & 1u) != 0u;
+}
+
+// Of the asked points about another, the one of a turn of 0 to 7: even along each axis.
+uvec3 evenPoint(uvec3 point, uint turn) {
+    uvec3 odd = point & 1u;
+    return point - odd + 2u * odd * (uvec3(turn, turn >> 1, turn >> 2) & 1u);
+}
+
+// The turn of the first such point in the air, from one on; 8 where none is.
+uint turnInTheAir(uvec3 point, uint first) {
+    for (uint k = 0u; k < 8u; ++k) {
+        uvec3 even = evenPoint(point, first ^ k);
+        if (!isIn(solidPoints[even.z], even)) {
+            return first ^ k;
+        }
+    }
+    return 8u;
+}
+
+// Of small bricks all points, of larger ones every other along each axis, and those in the air that
+// have none of these in the air about them.
+void chooseAsked(FarBrick brick) {
+    uint thread = gl_LocalInvocationIndex;
+    if (thread < kMeshSide) {
+        uint solid = 0u;
+        for (uint i = 0u; i < kMeshSide * kMeshSide; ++i) {
+            solid |= isSolidPoint(i, thread) ? 1u << i : 0u;
+        }
+        solidPoints[thread] = solid;
+    }
+    barrier();
+    if (thread < kMeshSide) {
+        uint asked = 0u;
+        for (uint i = 0u; i < kMeshSide * kMeshSide; ++i) {
+            uvec3 point = uvec3(i % kMeshSide, i / kMeshSide, thread);
+            bool isAsked = brick.scale == 0u || all(equal(point & 1u, uvec3(0u))) ||
+                           (!isIn(solidPoints[thread], point) && turnInTheAir(point, 0u) == 8u);
+            asked |= isAsked ? 1u << i : 0u;
+        }
+        askedPoints[thread] = asked;
+    }
+    barrier();
+    if (thread == 0u) {
+        askedRowCount = 0u;
+        for (uint row = 0u; row < kMeshSide * kMeshSide; ++row) {
+            uvec2 at = uvec2(row % kMeshSide, row / kMeshSide);
+            if ((askedPoints[at.y] >> at.x * kMeshSide & (1u << kMeshSide) - 1u) != 0u) {
+                askedRows[askedRowCount] = at;
+                ++askedRowCount;
+            }
+        }
+    }
+    barrier();
+}
+
+// Of the asked points of a row along x: threads side by side walk much the same ways.
+uint rowSees(uint entry, uvec2 row, FarBrick brick, float side, vec3 origin) {
+    uint stride = brick.scale == 0u ? 1u : 2u;
     uint index = FarEntryArray(bakeTable.entries).at[entry].light;
     FarLight light = FarLightArray(bakeTable.lights).at[index];
     FarWindow window = farWindow(entry, origin);
     uint word = 0u;
-    for (uint i = 0u; i < kMeshSide; i += stride) {
+    for (uint i = 0u; i < kMeshSide; ++i) {
         uvec3 point = uvec3(i, row);
+        if (!isIn(askedPoints[row.y], point)) {
+            continue;
+        }
         vec3 place = (vec3(point) / float(kMeshSide - 1u) - 0.5) * side;
         // Neighbouring bricks agree on what they share.
         uvec3 number = ((brick.cell >> brick.scale) * (kMeshSide - 1u) + point) / stride;
+        place = askedPlace(place, light, window.centre, side / float(kBrickSteps));
         word |= sees(place, number, light, index, window, origin) ? 1u << i : 0u;
     }
     return word;
 }
 
-// What is between asked points sees what one of those about it does, now this one, now that.
+// What is between asked points sees what one of those in the air about it does, now this one, now
+// that.
 uint filledWord(uint entry, uint layer) {
     uint word = 0u;
     uint turn = (FarEntryArray(bakeTable.entries).at[entry].light * 2654435761u) >> 16;
     for (uint i = 0u; i < kMeshSide * kMeshSide; ++i) {
         uvec3 point = uvec3(i % kMeshSide, i / kMeshSide, layer);
-        uvec3 odd = point & 1u;
-        uvec3 bits = uvec3(turn >> (i & 7u), turn >> (i * 3u + 1u & 7u), turn >> (layer + 8u)) & 1u;
-        uvec3 asked = point - odd + 2u * odd * bits;
+        uint first = (turn >> (i & 7u) & 1u) | (turn >> (i * 3u + 1u & 7u) & 1u) << 1 |
+                     (turn >> (layer + 8u) & 1u) << 2;
+        uint inAir = turnInTheAir(point, first);
+        uvec3 other = evenPoint(point, inAir < 8u ? inAir : first);
+        uvec3 asked = isIn(askedPoints[layer], point) ? point : other;
         uint seen = FarEntryArray(bakeTable.entries).at[entry].face[asked.z];
-        word |= (seen >> asked.y * kMeshSide + asked.x & 1u) << i;
+        word |= isIn(seen, asked) ? 1u << i : 0u;
     }
     return word;
 }
@@ -115,20 +176,18 @@ void findHaze(uint entry, uint layer, FarBrick brick, vec3 origin, FarFieldTable
 
 void findMesh(uint entries, FarBrick brick, vec3 origin, FarFieldTable field) {
     float side = brickSide(field, brick);
-    uint stride = brick.scale == 0u ? 1u : 2u;
-    uint across = (kMeshSide - 1u) / stride + 1u;
-    uint rows = across * across;
+    uint rows = askedRowCount;
     for (uint i = gl_LocalInvocationIndex; i < entries * rows; i += kGroupSize) {
         uint entry = firstEntry() + i / rows;
         if (FarEntryArray(bakeTable.entries).at[entry].faceCount == kMesh) {
-            uvec2 row = stride * uvec2(i % rows % across, i % rows / across);
-            uint bits = rowSees(entry, row, stride, brick, side, origin);
+            uvec2 row = askedRows[i % rows];
+            uint bits = rowSees(entry, row, brick, side, origin);
             atomicOr(FarEntryArray(bakeTable.entries).at[entry].face[row.y],
                      bits << row.x * kMeshSide);
         }
     }
     barrier();
-    for (uint odd = 0u; stride > 1u && odd < 2u; ++odd) {  // odd layers read even ones as asked
+    for (uint odd = 0u; brick.scale > 0u && odd < 2u; ++odd) {  // odd layers read even ones as asked
         for (uint i = gl_LocalInvocationIndex; i < entries * kMeshSide; i += kGroupSize) {
             uint entry = firstEntry() + i / kMeshSide;
             uint layer = i % kMeshSide;
@@ -174,7 +233,7 @@ void main() {
         vec3 place = (vec3(number) / float(kWaySide - 1u) - 0.5) * side;
         wayEnds[thread] = inHaze(place, origin, brick, field);
     }
-    barrier();
+    chooseAsked(brick);
     uvec2 counts = entryCounts();
     findMesh(counts.x, brick, origin, field);
     findClusters(counts, brick, origin, field);

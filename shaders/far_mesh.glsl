@@ -7,6 +7,8 @@
 #ifndef NIGHTCITY_SHADERS_FAR_MESH_GLSL
 #define NIGHTCITY_SHADERS_FAR_MESH_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "far_bake.glsl"
 
 const float kSolidWeight = 1e-3;  // of points in a solid, which count only where there are no others
@@ -24,10 +26,15 @@ struct MeshSight {
     float seen[kMeshSide];  // sum of the weights of those that do
 };
 
-float meshWeight(uint point, uint layer) {
+// Whether a point lies in a solid or outside the haze.
+bool isSolidPoint(uint point, uint layer) {
     uint node = nodeAt(2u * uvec3(point % kMeshSide, point / kMeshSide, layer));
     uint word = UintArray(bakeTable.sides).at[groupBrick() * kBrickSideWords + (node >> 5)];
-    return (word >> (node & 31u) & 1u) == 0u ? 1.0 : kSolidWeight;
+    return (word >> (node & 31u) & 1u) != 0u;
+}
+
+float meshWeight(uint point, uint layer) {
+    return isSolidPoint(point, layer) ? kSolidWeight : 1.0;
 }
 
 // `column`: number of its foot among the nodes.

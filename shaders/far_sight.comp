@@ -57,17 +57,18 @@ bool facesAway(FarLight light, vec3 way, vec3 brickHalf) {
 }
 
 // No contribution of the window to a node of the brick is larger, W m^-2.
-float largestFluence(FarLight light, vec3 way, vec3 brickHalf, float nearRadius) {
+float largestFluence(FarLight light, vec3 way, vec3 brickHalf, float splitRadius) {
     vec3 gap = max(abs(way) - brickHalf, vec3(0.0));
-    // (1 - nearShare(y)) / y is at most 1.3815, and at most 1 / y; a pane brings at most 4 / 3
-    // of its point from a side away, and no more than half the sphere from nearer.
-    return 2.0 * light.power / (3.14159265 * max(dot(gap, gap), 0.25 * nearRadius * nearRadius));
+    // farShare(y) / y is at most 1.3815, and at most 1 / y; blurredShare(y) / y at most 6.6 and
+    // 2 / y; a pane brings at most 4 / 3 of its point from a side away, and no more than half
+    // the sphere from nearer.
+    return 2.0 * light.power / (3.14159265 * max(dot(gap, gap), 0.25 * splitRadius * splitRadius));
 }
 
 // Of the distance, the share that a light may be half as large as to be one point. What is far
 // away is mostly hidden, and what a large brick says is less exact anyway.
-float spreadAt(float gap, FarBrick brick, float nearRadius) {
-    float growth = max(1.0, gap / (kFullSpread * nearRadius)) * float(1u << 2u * brick.scale);
+float spreadAt(float gap, FarBrick brick) {
+    float growth = max(1.0, gap / (kFullSpread * bakedField.nearRadius)) * float(1u << 2u * brick.scale);
     return min(bakeTable.spread * growth, max(bakeTable.spread, kLargestSpread));
 }
 
@@ -79,14 +80,14 @@ const uint kSeenFromCorners = 2u;
 // A light so small from here, with windows that face one way, is one point: from where the share
 // of the near part ends, or where nodes are farther apart than it is large. From a brick that
 // is as small from there, its sight is interpolated.
-uint howSeen(FarLight light, vec3 way, vec3 brickHalf, FarBrick brick, float nearRadius) {
+uint howSeen(FarLight light, vec3 way, vec3 brickHalf, FarBrick brick) {
     if (isWindow(light) || (light.coneCos < kClusterCos && kFarEmitter != kEmitterIsotropic)) {
         return kSeenApart;
     }
     float gap = length(max(abs(way) - brickHalf, vec3(0.0)));
     float reach = length(light.reach);
-    float spread = spreadAt(gap, brick, nearRadius);
-    bool isFar = reach <= spread * gap && gap >= nearRadius + reach;
+    float spread = spreadAt(gap, brick);
+    bool isFar = reach <= spread * gap && gap >= splitRadius(bakedField, brick) + reach;
     float cornerShare = brick.scale == 0u ? spread : max(spread, kCornerShare);
     if (isFar && length(brickHalf) <= cornerShare * gap) {
         return kSeenFromCorners;
@@ -123,12 +124,13 @@ bool findSight(FarLight light, uint how, vec3 brickCentre, vec3 brickHalf, FarBr
 }
 
 void append(uint index, FarLight light, uint how, vec3 brickCentre, vec3 brickHalf,
-            FarBrick brick, float nearRadius) {
+            FarBrick brick) {
     FarEntry entry;
     if (!findSight(light, how, brickCentre, brickHalf, brick, entry)) {
         return;
     }
-    float most = largestFluence(light, light.centre - brickCentre, brickHalf, nearRadius);
+    float most = largestFluence(light, light.centre - brickCentre, brickHalf,
+                                splitRadius(bakedField, brick));
     atomicAdd(bound, 1u + uint(most / bakeTable.boundUnit));
     if (!hasChanged(index)) {
         return;
@@ -175,9 +177,9 @@ void main() {
             FarLight light = FarLightArray(bakeTable.lights).at[index];
             vec3 way = brickCentre - light.centre;
             if (!facesAway(light, way, brickHalf)) {
-                uint how = howSeen(light, -way, brickHalf, brick, field.nearRadius);
+                uint how = howSeen(light, -way, brickHalf, brick);
                 if (how != kSeenApart || isWindow(light)) {
-                    append(index, light, how, brickCentre, brickHalf, brick, field.nearRadius);
+                    append(index, light, how, brickCentre, brickHalf, brick);
                 } else if (brick.scale > kLargestHiddenFrom ||
                            !isHidden(light, -way, brickCentre, brickHalf)) {
                     uint slot = atomicAdd(stackSize, 2u);

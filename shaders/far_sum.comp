@@ -111,7 +111,7 @@ float[kColumnNodes] sharesBeyond(Hidden hidden) {
 
 void addQuick(ReadEntry read, float seen[kColumnNodes], Column column, FarFieldTable field,
               inout uvec3 sum[kColumnNodes]) {
-    QuickColumn quick = quickColumn(read.window, column, field);
+    QuickColumn quick = quickColumn(read.window, column);
     [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
         sum[i] += inUnits(seen[i] * quickFluence(quick, column, i), read.emission, read.baked);
     }
@@ -127,7 +127,7 @@ void addExact(ReadEntry read, float seen[kColumnNodes], Column column, uint firs
             float extinction = kFarVisibility == 0u        ? column.ownHaze[i]
                                : window.extinction >= 0.0 ? window.extinction
                                                           : meanExtinction(window, place, origin, field);
-            float perWatt = seen[i] * farFluencePerWatt(window, place, extinction, field);
+            float perWatt = seen[i] * bakedFluencePerWatt(window, place, extinction, column.baked);
             Uvec3Array(bakeTable.sums).at[firstNode + i * kNodesALayer] +=
                 inUnits(perWatt, read.emission, read.baked);
         }
@@ -138,6 +138,7 @@ Column columnOf(uint thread, FarBrick brick, FarFieldTable field, vec3 origin) {
     Column column;
     column.spacing = brickSpacing(field, brick);
     column.halfSide = 0.5 * brickSide(field, brick);
+    column.baked = bakedShare(field, brick);
     column.foot = column.spacing * vec3(nodePlace(thread)) - column.halfSide;
     column.isCoarse = brick.scale > 0u;
     column.exactHaze = exactHaze(brick, brickSide(field, brick));

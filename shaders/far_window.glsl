@@ -8,7 +8,6 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "far_way.glsl"
-#include "transport/near_far_split.h"
 #include "transport/pane_solid_angle.h"
 
 const float kTurn = 6.28318530717958648;
@@ -99,11 +98,28 @@ float clearFluence(FarWindow window, vec3 way, float squared) {
     return paneSolidAngle(point, window.a, window.b) / (2.0 * kTurn * window.a * window.b);
 }
 
+// What of a window's light the nodes of a brick hold.
+struct BakedShare {
+    float perSquare;  // 1 / R^2 of near_far_split.h, m^-2
+    bool isBlurred;
+};
+
+BakedShare bakedShare(FarFieldTable field, FarBrick brick) {
+    float radius = splitRadius(field, brick);
+    return BakedShare(1.0 / (radius * radius), isBlurred(field, brick.scale));
+}
+
+// squared: of the distance from the window's centre, m^2.
+float shareAt(BakedShare baked, float squared) {
+    float y = squared * baked.perSquare;
+    return baked.isBlurred ? blurredShare(y) : farShare(y);
+}
+
 // `extinction`: 1/m, the mean on the way.
-float farFluencePerWatt(FarWindow window, vec3 place, float extinction, FarFieldTable field) {
+float bakedFluencePerWatt(FarWindow window, vec3 place, float extinction, BakedShare baked) {
     vec3 way = place - window.centre;
     float squared = dot(way, way);
-    float share = farShare(squared / (field.nearRadius * field.nearRadius));
+    float share = shareAt(baked, squared);
     if (share == 0.0) {
         return 0.0;
     }

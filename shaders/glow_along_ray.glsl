@@ -27,9 +27,10 @@ const float kErrorInCommon = 0.8e-3;
 const float kErrorOfFar = 1.25;
 const float kErrorOfNear = 0.25;
 
-// A part of a ray in haze of one kind.
+// A part of a ray in haze of one kind, and in bricks that all hold the near parts or do not.
 struct HazeRun {
     float begin, end;  // m
+    bool isBlurred;
     float extinction, scattering;  // 1/m
     vec3 far;          // W m^-1: Int far fluence exp(-extinction (t - begin)) dt
     // Where kLedger:
@@ -37,18 +38,25 @@ struct HazeRun {
     float farSamples;  // how many were taken
 };
 
-// Adds [begin, end] of the ray, in one medium, to a run. Brick by brick: inside one the field is
-// smooth, so that one Gauss rule serves for all of it, two nodes at a time.
+// Adds [begin, end] of the ray, in one medium, to a run, or as much as lies in bricks like those
+// before. Brick by brick: inside one the field is smooth, so that one Gauss rule serves for all
+// of it, two nodes at a time.
 void addFar(FarFieldTable field, FieldRay ray, float begin, float end, inout HazeRun run) {
     BrickStep brick;
     vec3 start = vec3(0.0), pace = vec3(0.0);
+    float stop = begin;  // m, in the brick
     float span = 0.0;
     int count = 0;  // nodes in the brick, even
     int pair = 0;   // of them
     while (begin < end) {
         if (pair == 0) {
             brick = brickAfter(field, ray, begin);
-            span = min(brick.end, end) - begin;
+            if (run.end > run.begin && brick.isBlurred != run.isBlurred) {
+                break;
+            }
+            run.isBlurred = brick.isBlurred;
+            stop = min(brick.end, end);
+            span = stop - begin;
             float spacing = field.cellSide * brick.side / float(kBrickSteps);
             float most =
                 kNearEmitter == kEmitterIsotropic ? kFarStretchOfIsotropic : kFarStretch;
@@ -75,7 +83,8 @@ void addFar(FarFieldTable field, FieldRay ray, float begin, float end, inout Haz
         ++pair;
         if (2 * pair == count) {
             pair = 0;
-            begin = max(brick.end, begin + span);
+            run.end = stop;
+            begin = max(brick.end, stop);
         }
     }
 }
@@ -83,7 +92,7 @@ void addFar(FarFieldTable field, FieldRay ray, float begin, float end, inout Haz
 // The next run of a walk, which goes on to where it ends. False: there is none.
 bool nextRun(FarFieldTable field, FieldRay ray, inout HazeWalk walk, out HazeRun run) {
     MediumPiece piece = nextMedium(walk);
-    run = HazeRun(piece.begin, piece.begin, piece.extinction, piece.scattering, vec3(0.0),
+    run = HazeRun(piece.begin, piece.begin, false, piece.extinction, piece.scattering, vec3(0.0),
                   0.0, 0.0);
     if (piece.begin >= walk.end) {
         return false;
@@ -92,8 +101,11 @@ bool nextRun(FarFieldTable field, FieldRay ray, inout HazeWalk walk, out HazeRun
     while (piece.begin <= run.end + kMediaGap && piece.begin < walk.end &&
            piece.extinction == run.extinction && piece.scattering == run.scattering) {
         addFar(field, ray, piece.begin, piece.end, run);
-        run.end = piece.end;
         ended = walk;
+        if (run.end < piece.end) {
+            ended.at = run.end;
+            break;
+        }
         piece = nextMedium(walk);
     }
     walk = ended;
@@ -136,7 +148,10 @@ GlowSample glowAlongRay(Ray ray, float end, uint tile, GlowTable table, out Glow
         Ray onward = Ray(ray.origin + run.begin * ray.direction, ray.direction);
         NearPiece piece = NearPiece(onward, run.end - run.begin, run.extinction, radius,
                                     table.tolerance);
-        NearSum near = nearGlow(piece, tile, table);
+        NearSum near = NearSum(vec3(0.0), 0.0);
+        if (!run.isBlurred) {
+            near = nearGlow(piece, tile, table);
+        }
         float share = kInverse4Pi * run.scattering * exp(-result.depth);
         result.glow += share * (run.far + near.light);
         if (kLedger) {

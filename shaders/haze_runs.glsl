@@ -23,6 +23,7 @@ struct FieldRay {
 // The brick that a ray is in, or the cell where no brick is.
 struct BrickStep {
     uint index;   // into the bricks; kNone: no haze
+    bool isBlurred;  // as far_field.glsl has it
     vec3 corner;  // in cells from the lattice's corner
     float side;   // cells
     float end;    // m along the ray, where it leaves it: always further on
@@ -58,6 +59,7 @@ BrickStep brickAfter(FarFieldTable field, FieldRay ray, float at) {
     uint scale = word == kNone ? 0u : word >> kScaleShift;
     BrickStep brick;
     brick.index = brickOfIndex(word);
+    brick.isBlurred = isBlurred(field, scale);
     brick.corner = vec3(cell >> scale << scale);
     brick.side = float(1u << scale);
     vec3 far = brick.corner + mix(vec3(0.0), vec3(brick.side), greaterThan(ray.pace, vec3(0.0)));

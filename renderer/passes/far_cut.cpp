@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "transport/near_far_split.h"
+
 namespace nightcity {
 namespace {
 
@@ -28,9 +30,18 @@ FarCut::FarCut(const FarLayout& layout, const FarJoining& joining)
     }
 }
 
+// m, as far_bake.glsl has it.
+double FarCut::splitRadius(unsigned scale) const {
+    const float spacing = float(cellSide_) / float(kBrickSteps);
+    return scale < blurredScale(joining_.nearRadius, spacing)
+               ? joining_.nearRadius
+               : blurRadius(joining_.nearRadius, spacing * float(1u << scale));
+}
+
 // m: bricks of the scale take a light of that reach as one from this far away on; below 0: all do.
 double FarCut::closedFrom(double reach, unsigned scale) const {
     const double half = 0.5 * cellSide_ * double(1u << scale);
+    const double radius = splitRadius(scale);
     const double spread = joining_.spread;
     if (scale >= kBlurredScale && spread > 0 && reach * double(kBlurredReach) <= half) {
         return -1;
@@ -39,7 +50,7 @@ double FarCut::closedFrom(double reach, unsigned scale) const {
         const double growth =
             std::max(1.0, gap / (double(kFullSpread) * joining_.nearRadius)) * double(1u << 2 * scale);
         const double here = std::min(spread * growth, std::max(spread, double(kLargestSpread)));
-        const bool isFar = reach <= here * gap && gap >= joining_.nearRadius + reach;
+        const bool isFar = reach <= here * gap && gap >= radius + reach;
         return isFar && (scale > 0 || std::sqrt(3.0) * half <= here * gap);
     };
     double far = 1;

@@ -30,6 +30,7 @@ public:
     bool mayOpen(const FarLight& light) const;
 
 private:
+    double splitRadius(unsigned scale) const;
     double closedFrom(double reach, unsigned scale) const;
 
     FarJoining joining_;

@@ -23,7 +23,7 @@ namespace {
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(FarMedium) == 32);
 static_assert(sizeof(FarBrick) == 24);
-static_assert(sizeof(FarFieldTable) == 5 * 8 + 36);
+static_assert(sizeof(FarFieldTable) == 5 * 8 + 40);
 static_assert(sizeof(FarLight) == 56);
 static_assert(sizeof(FarEntry) == 12 + 4 * (3 * kWayWords + kFarFaces));
 static_assert(sizeof(FarBakeTable) == 12 * 8 + 32);
@@ -171,6 +171,7 @@ void FarFieldGrid::uploadLayout(std::span<const FarMedium> media) {
     contents_.cellSide = layout_.cellSide;
     contents_.cellCounts = layout_.counts;
     contents_.nearRadius = settings_.nearRadius;
+    contents_.blurredScale = blurredScale(settings_.nearRadius, layout_.cellSide / float(kBrickSteps));
     contents_.nodeUnit = 1;
     bake_.sides = allocate("far sides", layout_.bricks.size() * kBrickSideWords * 4);
     units_ = gpu::ReadableBuffer(device_, "far units", layout_.bricks.size() * 4);

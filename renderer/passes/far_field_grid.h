@@ -66,6 +66,7 @@ public:
     // Of the FarFieldTable; 0 before the first syncGeometry.
     VkDeviceAddress tableAddress() const { return table_ ? table_.address() : 0; }
     const FarFieldTable& table() const { return contents_; }
+    const FarLayout& layout() const { return layout_; }
     const gpu::Buffer& nodes() const { return nodes_; }  // uvec2 each, as frames read them
     std::uint64_t nodeCount() const { return layout_.nodes(); }
     std::uint64_t brickCount() const { return layout_.bricks.size(); }

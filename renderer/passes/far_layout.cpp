@@ -195,6 +195,15 @@ void addBrick(FarLayout& layout, uvec3 cell, uint scale, const BoxTree& media) {
 
 }  // namespace
 
+unsigned blurredScale(float nearRadius, float spacing) {
+    constexpr float kLeastSpacings = 3;  // in a near radius
+    unsigned scale = 1;
+    while (scale < kBrickScales && nearRadius >= kLeastSpacings * spacing * float(1u << scale)) {
+        ++scale;
+    }
+    return scale;
+}
+
 FarLayout layoutFarField(std::span<const FarMedium> media, const FarDetail& detail) {
     FarLayout layout;
     layout.cellSide = detail.nodes.spacing * float(kBrickSteps);

@@ -34,6 +34,10 @@ struct FarLayout {
     std::uint64_t nodes() const { return std::uint64_t{bricks.size()} * kBrickNodes; }
 };
 
+// From which scale on bricks hold the near parts too, blurred, for nodes that far apart in those of
+// scale 0: where fewer than three lie in the near radius. `nearRadius`, `spacing`: m.
+unsigned blurredScale(float nearRadius, float spacing);
+
 // Throws DeviceError, with the figure, where the field would take more than the memory.
 FarLayout layoutFarField(std::span<const FarMedium> media, const FarDetail& detail);
 

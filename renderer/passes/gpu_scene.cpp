@@ -168,8 +168,9 @@ void GpuScene::uploadNearField(const FlatScene& scene, const FarFieldSettings& s
         nearField_.push_back(std::move(buffer));
         return addressWords(nearField_.back().address());
     };
-    if (!scene.windows.empty()) {
-        table.tree = keep(upload<BoxNode>("near tree", near.buildTree(), 0));
+    const std::vector<BoxNode> tree = near.buildTree(NearCells(farField_.layout(), table.radius));
+    if (!tree.empty()) {
+        table.tree = keep(upload<BoxNode>("near tree", tree, 0));
     }
     scene.dropPages();
     table.panes = keep(uploadNearPanes(scene, near));

@@ -10,6 +10,7 @@
 
 #include "dispatch.h"
 #include "glow.h"
+#include "passes/near_cells.h"
 #include "scene/flat_scene.h"
 #include "settings.h"
 
@@ -46,8 +47,8 @@ public:
 
     NearPane pane(std::size_t window) const;
     NearExtremes extremes() const;
-    // Over what each one lights of its ball of the radius.
-    std::vector<BoxNode> buildTree() const;
+    // Over what each one lights of its ball of the radius: of those alone that reach the cells.
+    std::vector<BoxNode> buildTree(const NearCells& cells) const;
 
 private:
     class Walls;

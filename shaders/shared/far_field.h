@@ -46,6 +46,7 @@ struct FarFieldTable {
     uvec3 cellCounts;  // of the lattice along each axis; 0: no haze
     float nodeUnit;    // W m^-2
     float nearRadius;  // m, R of near_far_split.h
+    uint blurredScale; // from this scale on bricks hold the near parts too, blurred: at least 1
 };
 
 NIGHTCITY_END

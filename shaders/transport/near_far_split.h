@@ -26,6 +26,18 @@ NIGHTCITY_FUNCTION float farShare(float y) {
     return inside * inside * (6.0f + inside * (-8.0f + 3.0f * inside));
 }
 
+// With the near share blurred over the ball of R: its n(y) / d^2 is taken for b n(y) / R^2. Both bring
+// the same to the ball, whatever the lobe: b is the integral of n(u^2) over u from 0 to 1 over that
+// of u^2 n(u^2), (64 / 105) / (64 / 693) = 33 / 5.
+NIGHTCITY_FUNCTION float blurredShare(float y) {
+    return farShare(y) + 6.6f * y * nearShare(y);
+}
+
+// m, R of a blur: nodes so far apart meet it.
+NIGHTCITY_FUNCTION float blurRadius(float nearRadius, float spacing) {
+    return max(nearRadius, 2.0f * spacing);
+}
+
 NIGHTCITY_END
 
 #endif

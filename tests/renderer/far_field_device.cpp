@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "far_field_device.h"
 
+#include <optional>
 #include <random>
 
 #include "far_field_probe_spirv.h"
@@ -15,7 +16,7 @@ namespace {
 const gpu::Binding kPlaces{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
 const gpu::Binding kAnswers{1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
 
-// Weighted by `share(distance from the window's centre)`.
+// Weighted by `share(place, distance from the window's centre)`.
 template <typename Share>
 std::vector<glm::dvec3> judged(const FlatScene& scene, const FarFieldSettings& settings,
                                std::span<const glm::vec3> places, double relative, Share&& share) {
@@ -28,7 +29,7 @@ std::vector<glm::dvec3> judged(const FlatScene& scene, const FarFieldSettings& s
         glm::dvec3 sum(0);
         const SurfacePoint point{glm::dvec3(place), glm::dvec3(0), std::nullopt};
         for (const LitWindow& window : lights.windows) {
-            const double weight = share(glm::length(point.place - window.centre));
+            const double weight = share(place, glm::length(point.place - window.centre));
             if (weight > 0) {
                 // Far windows bring less than a thousandth of a near one: 1e-9 per watt is
                 // below anything that counts.
@@ -39,6 +40,18 @@ std::vector<glm::dvec3> judged(const FlatScene& scene, const FarFieldSettings& s
         values.push_back(sum);
     }
     return values;
+}
+
+std::optional<unsigned> scaleAt(const FarLayout& layout, glm::vec3 place) {
+    const glm::ivec3 cell(glm::floor((place - layout.origin) / layout.cellSide));
+    if (glm::any(glm::lessThan(cell, glm::ivec3(0))) ||
+        glm::any(glm::greaterThanEqual(cell, glm::ivec3(layout.counts)))) {
+        return std::nullopt;
+    }
+    const glm::uvec3 at(cell);
+    const uint word = layout.index[(std::size_t{at.z} * layout.counts.y + at.y) * layout.counts.x +
+                                   at.x];
+    return word == ~0u ? std::nullopt : std::optional<unsigned>(word >> kScaleShift);
 }
 
 bool isInBuilding(const FlatScene& scene, glm::vec3 place) {
@@ -124,16 +137,29 @@ std::vector<glm::uvec2> FarFieldOnDevice::nodes() {
     return {nodes, nodes + nodeCount()};
 }
 
-std::vector<glm::dvec3> judgedFarFluence(const FlatScene& scene, const FarFieldSettings& settings,
-                                         std::span<const glm::vec3> places, double relative) {
-    return judged(scene, settings, places, relative, [&](double distance) {
-        return double(farShare(float(std::pow(distance / double(settings.nearRadius), 2))));
+bool isBlurredAt(const FarLayout& layout, const FarFieldSettings& settings, glm::vec3 place) {
+    const unsigned blurred = blurredScale(settings.nearRadius, layout.cellSide / float(kBrickSteps));
+    const std::optional<unsigned> scale = scaleAt(layout, place);
+    return scale && *scale >= blurred;
+}
+
+std::vector<glm::dvec3> judgedBakedFluence(const FlatScene& scene, const FarFieldSettings& settings,
+                                           const FarLayout& layout,
+                                           std::span<const glm::vec3> places, double relative) {
+    const float spacing = layout.cellSide / float(kBrickSteps);
+    return judged(scene, settings, places, relative, [&](glm::vec3 place, double distance) {
+        const auto y = [&](float radius) { return float(std::pow(distance / double(radius), 2)); };
+        if (!isBlurredAt(layout, settings, place)) {
+            return double(farShare(y(settings.nearRadius)));
+        }
+        const float wide = spacing * float(1u << scaleAt(layout, place).value());
+        return double(blurredShare(y(blurRadius(settings.nearRadius, wide))));
     });
 }
 
 std::vector<glm::dvec3> judgedFluence(const FlatScene& scene, const FarFieldSettings& settings,
                                       std::span<const glm::vec3> places, double relative) {
-    return judged(scene, settings, places, relative, [](double) { return 1.0; });
+    return judged(scene, settings, places, relative, [](glm::vec3, double) { return 1.0; });
 }
 
 std::vector<glm::vec3> placesInTheAir(const FlatScene& scene, std::size_t count, unsigned seed) {

@@ -48,9 +48,13 @@ private:
     gpu::ComputePipeline probe_;
 };
 
-// The same in double precision, by adaptive quadrature over every pane, to `relative`.
-std::vector<glm::dvec3> judgedFarFluence(const FlatScene& scene, const FarFieldSettings& settings,
-                                         std::span<const glm::vec3> places, double relative);
+// Whether the brick about a place holds the near parts too; false where there is none.
+bool isBlurredAt(const FarLayout& layout, const FarFieldSettings& settings, glm::vec3 place);
+// The same in double precision, by adaptive quadrature over every pane, to `relative`: of all
+// fluence what the bricks of a layout hold.
+std::vector<glm::dvec3> judgedBakedFluence(const FlatScene& scene, const FarFieldSettings& settings,
+                                           const FarLayout& layout,
+                                           std::span<const glm::vec3> places, double relative);
 // All of the fluence, near and far.
 std::vector<glm::dvec3> judgedFluence(const FlatScene& scene, const FarFieldSettings& settings,
                                       std::span<const glm::vec3> places, double relative);

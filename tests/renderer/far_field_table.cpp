@@ -38,7 +38,7 @@ double quantile(std::vector<double> values, double share) {
 void printErrors(FarFieldOnDevice& device, const FlatScene& scene,
                  const FarFieldSettings& settings, const std::vector<glm::vec3>& places) {
     const auto found = device.fluence(places);
-    const auto far = judgedFarFluence(scene, settings, places, 1e-4);
+    const auto far = judgedBakedFluence(scene, settings, device.field().layout(), places, 1e-4);
     const auto all = judgedFluence(scene, settings, places, 1e-3);
     std::vector<double> total, errors;
     for (const glm::dvec3& value : all) {

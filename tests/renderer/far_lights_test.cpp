@@ -10,6 +10,7 @@
 
 #include "passes/far_cut.h"
 #include "passes/far_lights.h"
+#include "transport/near_far_split.h"
 
 namespace nightcity {
 namespace {
@@ -62,7 +63,10 @@ protected:
         const float growth = std::max(1.0f, gap / (kFullSpread * kNearRadius)) *
                              float(1u << 2u * brick.scale);
         const float spread = std::min(kSpread * growth, std::max(kSpread, kLargestSpread));
-        const bool isFar = reach <= spread * gap && gap >= kNearRadius + reach;
+        const float radius = brick.scale < blurredScale(kNearRadius, 1)
+                                 ? kNearRadius
+                                 : blurRadius(kNearRadius, float(1u << brick.scale));
+        const bool isFar = reach <= spread * gap && gap >= radius + reach;
         if (light.coneCos < kClusterCos) {
             return true;
         }

@@ -94,6 +94,20 @@ ErrorFigures figures(float tolerance, float extinction, int count) {
     return errorFigures(errors);
 }
 
+// What a window brings to the ball of the radius about it, whatever its lobe: its fluence times the
+// square of the distance is the share, so that the mean of that over the distance is 1 without one.
+TEST(NearWindow, ABlurKeepsWhatTheBallGets) {
+    constexpr int kSteps = 10000;
+    double blurred = 0, far = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double u = (i + 0.5) / kSteps;
+        blurred += double(blurredShare(float(u * u))) / kSteps;
+        far += double(farShare(float(u * u))) / kSteps;
+    }
+    EXPECT_NEAR(blurred, 1, 1e-5);
+    EXPECT_NEAR(far, 1 - 64.0 / 105, 1e-5);
+}
+
 TEST(NearWindow, HoldsTheToleranceOnRandomRays) {
     for (const float extinction : {0.0f, 0.05f}) {
         const ErrorFigures percent = figures(0.01f, extinction, 600);
