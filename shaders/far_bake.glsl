@@ -48,8 +48,13 @@ uint entryAt(uint number, uvec2 counts) {
 
 // m, from a window beyond which a brick holds its light as it is.
 float splitRadius(FarFieldTable field, FarBrick brick) {
-    return isBlurred(field, brick.scale) ? blurRadius(field.nearRadius, brickSpacing(field, brick))
-                                         : field.nearRadius;
+    return splitRadius(field.nearRadius, brickSpacing(field, brick), isBlurred(field, brick.scale));
+}
+
+// Whether a node lies in a solid or outside the haze (far_sides.comp).
+bool isSolid(uint brick, uint node) {
+    uint word = UintArray(bakeTable.sides).at[brick * kBrickSideWords + (node >> 5)];
+    return (word >> (node & 31u) & 1u) != 0u;
 }
 
 // Of a node along each axis, from 0.

@@ -24,11 +24,6 @@ const float kErrorOfFourth = 0.12;
 const float kErrorAtWalls = 0.25;
 const float kErrorOfValue = 5e-4;
 
-bool isSolid(uint brick, uint node) {
-    return (UintArray(bakeTable.sides).at[brick * kBrickSideWords + (node >> 5)] >> (node & 31u) &
-            1u) != 0u;
-}
-
 // Sum of a node in the air, W m^-2; `found` is false in a solid and where no node is. `place`: in
 // node spacings of scale 0 from the lattice's corner.
 vec3 airNode(FarFieldTable field, ivec3 place, out bool found) {

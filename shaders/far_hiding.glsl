@@ -153,9 +153,7 @@ uint seenFromCorners(uint index, FarBrick brick, vec3 brickCentre, vec3 brickHal
     uint solid = 0u;
     for (uint c = 0u; c < 8u; ++c) {
         uvec3 offset = uvec3(c, c >> 1, c >> 2) & 1u;
-        uint node = nodeAt(offset * kBrickSteps);
-        uint word = UintArray(bakeTable.sides).at[groupBrick() * kBrickSideWords + (node >> 5)];
-        if ((word >> (node & 31u) & 1u) != 0u) {
+        if (isSolid(groupBrick(), nodeAt(offset * kBrickSteps))) {
             solid |= 1u << c;
             continue;
         }

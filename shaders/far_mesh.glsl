@@ -26,11 +26,9 @@ struct MeshSight {
     float seen[kMeshSide];  // sum of the weights of those that do
 };
 
-// Whether a point lies in a solid or outside the haze.
 bool isSolidPoint(uint point, uint layer) {
-    uint node = nodeAt(2u * uvec3(point % kMeshSide, point / kMeshSide, layer));
-    uint word = UintArray(bakeTable.sides).at[groupBrick() * kBrickSideWords + (node >> 5)];
-    return (word >> (node & 31u) & 1u) != 0u;
+    return isSolid(groupBrick(),
+                   nodeAt(2u * uvec3(point % kMeshSide, point / kMeshSide, layer)));
 }
 
 float meshWeight(uint point, uint layer) {

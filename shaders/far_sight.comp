@@ -92,8 +92,8 @@ uint howSeen(FarLight light, vec3 way, vec3 brickHalf, FarBrick brick) {
     if (isFar && length(brickHalf) <= cornerShare * gap) {
         return kSeenFromCorners;
     }
-    bool isSmall = brick.scale >= kBlurredScale && bakeTable.spread > 0.0 &&
-                   reach * kBlurredReach <= brickHalf.x;
+    bool isSmall = brick.scale >= kJoinedScale && bakeTable.spread > 0.0 &&
+                   reach * kJoinedReach <= brickHalf.x;
     return brick.scale > 0u && (isFar || isSmall) ? kSeenAsPoint : kSeenApart;
 }
 

@@ -111,8 +111,7 @@ BakedShare bakedShare(FarFieldTable field, FarBrick brick) {
 
 // squared: of the distance from the window's centre, m^2.
 float shareAt(BakedShare baked, float squared) {
-    float y = squared * baked.perSquare;
-    return baked.isBlurred ? blurredShare(y) : farShare(y);
+    return bakedShare(squared * baked.perSquare, baked.isBlurred);
 }
 
 // `extinction`: 1/m, the mean on the way.

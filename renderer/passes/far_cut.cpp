@@ -33,9 +33,8 @@ FarCut::FarCut(const FarLayout& layout, const FarJoining& joining)
 // m, as far_bake.glsl has it.
 double FarCut::splitRadius(unsigned scale) const {
     const float spacing = float(cellSide_) / float(kBrickSteps);
-    return scale < blurredScale(joining_.nearRadius, spacing)
-               ? joining_.nearRadius
-               : blurRadius(joining_.nearRadius, spacing * float(1u << scale));
+    return nightcity::splitRadius(joining_.nearRadius, spacing * float(1u << scale),
+                                  scale >= blurredScale(joining_.nearRadius, spacing));
 }
 
 // m: bricks of the scale take a light of that reach as one from this far away on; below 0: all do.
@@ -43,7 +42,7 @@ double FarCut::closedFrom(double reach, unsigned scale) const {
     const double half = 0.5 * cellSide_ * double(1u << scale);
     const double radius = splitRadius(scale);
     const double spread = joining_.spread;
-    if (scale >= kBlurredScale && spread > 0 && reach * double(kBlurredReach) <= half) {
+    if (scale >= kJoinedScale && spread > 0 && reach * double(kJoinedReach) <= half) {
         return -1;
     }
     const auto isClosed = [&](double gap) {

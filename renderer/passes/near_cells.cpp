@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/near_cells.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nightcity {

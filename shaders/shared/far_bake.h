@@ -44,8 +44,8 @@ NIGHTCITY_CONST float kClusterCos = 0.95f;  // of the widest cone of normals tha
 // How bricks see lights (far_sight.comp; the host asks the same, passes/far_cut.h).
 NIGHTCITY_CONST float kFullSpread = 20.0f;  // near radii, up to which the spread is that of the table
 NIGHTCITY_CONST float kLargestSpread = 0.4f;
-NIGHTCITY_CONST float kBlurredReach = 2.67f;
-NIGHTCITY_CONST uint kBlurredScale = 1u;    // of bricks whose nodes are too far apart for single windows
+NIGHTCITY_CONST float kJoinedReach = 2.67f;
+NIGHTCITY_CONST uint kJoinedScale = 1u;    // of bricks whose nodes are too far apart for single windows
 NIGHTCITY_CONST uint kPartLevels = 3u;      // of the tree below a light that parts of it are taken from
 
 // A node of the tree over all windows, lit or not. The first child of an inner node follows it.

@@ -33,9 +33,13 @@ NIGHTCITY_FUNCTION float blurredShare(float y) {
     return farShare(y) + 6.6f * y * nearShare(y);
 }
 
-// m, R of a blur: nodes so far apart meet it.
-NIGHTCITY_FUNCTION float blurRadius(float nearRadius, float spacing) {
-    return max(nearRadius, 2.0f * spacing);
+// What of a window's light nodes hold that are `spacing` apart: R, m, and the share within it. A blur
+// is so wide that the nodes meet it.
+NIGHTCITY_FUNCTION float splitRadius(float nearRadius, float spacing, bool isBlurred) {
+    return isBlurred ? max(nearRadius, 2.0f * spacing) : nearRadius;
+}
+NIGHTCITY_FUNCTION float bakedShare(float y, bool isBlurred) {
+    return isBlurred ? blurredShare(y) : farShare(y);
 }
 
 NIGHTCITY_END

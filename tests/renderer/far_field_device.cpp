@@ -148,12 +148,10 @@ std::vector<glm::dvec3> judgedBakedFluence(const FlatScene& scene, const FarFiel
                                            std::span<const glm::vec3> places, double relative) {
     const float spacing = layout.cellSide / float(kBrickSteps);
     return judged(scene, settings, places, relative, [&](glm::vec3 place, double distance) {
-        const auto y = [&](float radius) { return float(std::pow(distance / double(radius), 2)); };
-        if (!isBlurredAt(layout, settings, place)) {
-            return double(farShare(y(settings.nearRadius)));
-        }
-        const float wide = spacing * float(1u << scaleAt(layout, place).value());
-        return double(blurredShare(y(blurRadius(settings.nearRadius, wide))));
+        const bool isBlurred = isBlurredAt(layout, settings, place);
+        const float wide = spacing * float(1u << scaleAt(layout, place).value_or(0));
+        const double radius = double(splitRadius(settings.nearRadius, wide, isBlurred));
+        return double(bakedShare(float(std::pow(distance / radius, 2)), isBlurred));
     });
 }
 

@@ -63,9 +63,8 @@ protected:
         const float growth = std::max(1.0f, gap / (kFullSpread * kNearRadius)) *
                              float(1u << 2u * brick.scale);
         const float spread = std::min(kSpread * growth, std::max(kSpread, kLargestSpread));
-        const float radius = brick.scale < blurredScale(kNearRadius, 1)
-                                 ? kNearRadius
-                                 : blurRadius(kNearRadius, float(1u << brick.scale));
+        const float radius = splitRadius(kNearRadius, float(1u << brick.scale),
+                                         brick.scale >= blurredScale(kNearRadius, 1));
         const bool isFar = reach <= spread * gap && gap >= radius + reach;
         if (light.coneCos < kClusterCos) {
             return true;
@@ -73,7 +72,7 @@ protected:
         if (brick.scale == 0) {
             return !isFar || std::sqrt(3.0f) * half > spread * gap;
         }
-        return !isFar && reach * kBlurredReach > half;
+        return !isFar && reach * kJoinedReach > half;
     }
 
     const std::vector<FarMedium> media_{{vec3(0), 0.01f, vec3(480, 480, 30), 0.009f}};
