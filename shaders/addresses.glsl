@@ -53,8 +53,21 @@ layout(push_constant, scalar) uniform Push {
     PushConstants push;
 };
 
+// Some devices load a word of a table anew, as slowly as any other, at each use, so in
+// each turn of a loop. A pass with loops keeps both at hand: it defines NIGHTCITY_KEEP_TABLES and
+// calls keepTables first.
+#ifdef NIGHTCITY_KEEP_TABLES
+SceneTable sceneTable;
+FrameTable frameTable;
+
+void keepTables() {
+    sceneTable = SceneReference(push.scene).table;
+    frameTable = FrameReference(push.frame).table;
+}
+#else
 #define sceneTable SceneReference(push.scene).table
 #define frameTable FrameReference(push.frame).table
+#endif
 
 #define NIGHTCITY_GAUSS_PAIRS FloatArray(sceneTable.gaussPairs).at
 

@@ -47,16 +47,17 @@ uint planeSeen(ivec2 at) {
     if (primitive >= kGroundPrimitive) {
         return primitive;
     }
-    return isPane(primitive)
-               ? UintArray(sceneTable.windowPlane).at[primitive & ~kPanePrimitive]
-               : UintArray(sceneTable.trianglePlane).at[primitive];
+    // One load, whichever array holds it.
+    uvec2 planes = isPane(primitive) ? sceneTable.windowPlane : sceneTable.trianglePlane;
+    return UintArray(planes).at[primitive & ~kPanePrimitive];
 }
 
 // The same for what has an edge in the glow: panes apart from the wall behind them, for along
 // their edges glow rises steeply.
 uint faceSeen(ivec2 at) {
     uint primitive = SurfaceRecordArray(frameTable.surfaces).at[pixelIndex(at)].primitive;
-    return isPane(primitive) ? primitive : planeSeen(at);
+    bool isTriangle = primitive < kPanePrimitive;
+    return isTriangle ? UintArray(sceneTable.trianglePlane).at[primitive] : primitive;
 }
 
 uint bitOf(ivec2 at) {
@@ -98,6 +99,33 @@ void askForMore(ivec2 cell, GlowTable table) {
         askFor(min(span.first + ivec2(kGlowCell, k), span.last), table);
         askFor(min(span.first + ivec2(k, kGlowCell), span.last), table);
     }
+}
+
+// Where a thread of kListGroups groups begins in a list; it goes on by as many as there are. Even
+// groups first, as tileOfGroup has it.
+uint firstOfList() {
+    uint half_ = kListGroups / 2u;
+    uint group = gl_WorkGroupID.x;
+    uint slot = group < half_ ? 2u * group : 2u * (group - half_) + 1u;
+    return slot * kGroupSize + gl_LocalInvocationIndex;
+}
+
+uint cellCount(uint list, GlowTable table) {
+    return table.rows == 0u ? 0u : UintArray(table.lists).at[list];
+}
+
+// Index of cell `k` of a list.
+uint cellOfList(uint list, uint k, GlowTable table) {
+    return UintArray(table.lists).at[kCellLists + list * table.columnCells * table.rowCells + k];
+}
+
+void addToList(uint list, uint cell, GlowTable table) {
+    uint k = atomicAdd(UintArray(table.lists).at[list], 1u);
+    UintArray(table.lists).at[kCellLists + list * table.columnCells * table.rowCells + k] = cell;
+}
+
+ivec2 cellAt(uint index, GlowTable table) {
+    return ivec2(index % table.columnCells, index / table.columnCells);
 }
 
 bool isKeptCell(ivec2 cell, GlowTable table) {

@@ -36,6 +36,16 @@ GlowPatch glowPatch(ivec2 cell, GlowTable table) {
     return patch_;
 }
 
+// Of a cell whose patch is known to be whole.
+GlowPatch wholePatch(ivec2 cell, GlowTable table) {
+    GlowPatch patch_;
+    patch_.isWhole = true;
+    for (int k = 0; k < 16; ++k) {
+        patch_.at[k] = valueAt((cell + ivec2(k & 3, k >> 2) - 1) * int(kGlowCell), table);
+    }
+    return patch_;
+}
+
 // Weights of four points, one apart, at a share of the way from the second to the third:
 // Lagrange's cubic, or the straight line.
 vec4 cubicWeights(float f) {

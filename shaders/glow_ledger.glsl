@@ -26,13 +26,15 @@ float largestError(ivec2 first, int side, int step, GlowTable table) {
 }
 
 // Of pixels that are interpolated in a cell that sees one face.
-float errorInCell(ivec2 first, bool byQuarters, GlowPatch patch_, GlowQuarters quarters,
-                  GlowTable table) {
+float errorInPatch(ivec2 first, GlowPatch patch_, GlowTable table) {
     int side = int(kGlowCell);
-    return byQuarters ? largestError(first, side, 2, table) + kErrorOfQuarterBend *
-                            bendOfQuarters(quarters) * largest(quarters.at[4])
-                      : largestError(first, side, side, table) + kErrorOfBend *
-                            bendOfPatch(patch_) * largest(patch_.at[5]);
+    return largestError(first, side, side, table) +
+           kErrorOfBend * bendOfPatch(patch_) * largest(patch_.at[5]);
+}
+
+float errorInQuarters(ivec2 first, GlowQuarters quarters, GlowTable table) {
+    return largestError(first, int(kGlowCell), 2, table) +
+           kErrorOfQuarterBend * bendOfQuarters(quarters) * largest(quarters.at[4]);
 }
 
 // Of pixels that are interpolated in the quarter that holds the pixel (x, y) of a cell.

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The first round of rays of a band: the first pixel of every cell, and where a cell sees
-// several faces, every other pixel and more of its mixed quarters. One thread a cell.
+// several faces, every other pixel and more of its mixed quarters. Lists these as kOtherCells. One
+// thread a cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "glow_cells.glsl"
 
 layout(local_size_x = kGroupSize) in;
@@ -57,12 +59,13 @@ uint raysOfMixed(uvec2 same, ivec2 from) {
 }
 
 void main() {
+    keepTables();
     GlowTable table = glowTable;
     uint index = gl_GlobalInvocationID.x;
     if (index >= table.columnCells * table.rowCells) {
         return;
     }
-    ivec2 cell = ivec2(index % table.columnCells, index / table.columnCells);
+    ivec2 cell = cellAt(index, table);
     CellSpan span = cellSpan(cell, table);
     askForOwn(cell, 1u, table);
     if (!isKeptCell(cell, table)) {
@@ -70,6 +73,7 @@ void main() {
     }
     if (table.everyPixel != 0u || isClipped(span)) {
         askForOwn(cell, kAllPixels, table);
+        addToList(kOtherCells, index, table);
         return;
     }
     uvec2 same = sameFaces(span.first);
@@ -77,6 +81,7 @@ void main() {
         return;
     }
     askForMore(cell, table);
+    addToList(kOtherCells, index, table);
     for (int quarter = 0; quarter < 4; ++quarter) {
         ivec2 from = ivec2(quarter & 1, quarter >> 1) * 2;
         if (!isOneFace(same, from.x, from.y, 2)) {

@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chooses more rays where glow bends too much between those of the rounds before. push.round is 1
-// for the corners of a cell's quarters, and for all pixels of quarters in a cell that sees several
-// faces; 2 for all its pixels. One thread a cell.
+// Chooses more rays where glow bends too much between those of the rounds before, and sorts the
+// cells by how they are interpolated. One thread a cell: kRefineSort goes through all, the others
+// through a list with a few groups.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "glow_interpolation.glsl"
 
 layout(local_size_x = kGroupSize) in;
+layout(constant_id = NIGHTCITY_CONSTANT_STEP) const uint kStep = kRefineEdges;
 
 // In tolerances, what the cubic and the straight line may differ by halfway between two corners,
 // of cells whose neighbourhood sees one face and of others: along the edge of a pane glow has a
@@ -32,14 +34,18 @@ bool seesOneFace(ivec2 cell) {
     return isOne;
 }
 
+// The depths before the four corners of a cell.
+vec4 cornerDepths(CellSpan span, GlowTable table) {
+    return vec4(sampleAt(span.first, table).depth,
+                sampleAt(ivec2(span.last.x, span.first.y), table).depth,
+                sampleAt(ivec2(span.first.x, span.last.y), table).depth,
+                sampleAt(span.last, table).depth);
+}
+
 bool isTooBent(ivec2 cell, GlowTable table) {
     GlowPatch points = glowPatch(cell, table);
-    bvec4 hazy = greaterThan(vec4(points.at[5].w, points.at[6].w, points.at[9].w, points.at[10].w),
-                             vec4(0.0));
-    if (!any(hazy)) {
-        return false;
-    }
-    if (!all(hazy) || !points.isWhole) {
+    vec4 depths = vec4(points.at[5].w, points.at[6].w, points.at[9].w, points.at[10].w);
+    if (!all(greaterThan(depths, vec4(0.0))) || !points.isWhole) {
         return true;
     }
     float most = seesOneFace(cell) ? kMostBend : kMostBendByEdge;
@@ -73,26 +79,47 @@ uint steepQuarters(ivec2 cell, GlowTable table) {
     return pixels;
 }
 
-void main() {
-    GlowTable table = glowTable;
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= table.columnCells * table.rowCells) {
-        return;
+uint ownOf(uint index, GlowTable table) {
+    return UintArray(table.cells).at[index] >> kOwnPixels;
+}
+
+void sortCell(uint index, GlowTable table) {
+    ivec2 cell = cellAt(index, table);
+    if (isKeptCell(cell, table) && ownOf(index, table) == 1u) {
+        bool isHazy = any(greaterThan(cornerDepths(cellSpan(cell, table), table), vec4(0.0)));
+        addToList(isHazy ? kHazyCells : kClearCells, index, table);
     }
-    ivec2 cell = ivec2(index % table.columnCells, index / table.columnCells);
-    uint own = UintArray(table.cells).at[index] >> kOwnPixels;
-    if (!isKeptCell(cell, table)) {
-        return;
-    }
-    if (push.round == 1u) {
-        if (own == 1u) {
-            if (isTooBent(cell, table)) {
-                askForMore(cell, table);
-            }
-        } else if (own != kAllPixels) {
+}
+
+void refineCell(uint index, GlowTable table) {
+    ivec2 cell = cellAt(index, table);
+    if (kStep == kRefineEdges) {
+        if (ownOf(index, table) != kAllPixels) {
             askForOwn(cell, steepQuarters(cell, table), table);
         }
-    } else if (own == kEvenPixels && areQuartersTooBent(cell, table)) {
+    } else if (kStep == kRefinePatches) {
+        bool isBent = isTooBent(cell, table);
+        if (isBent) {
+            askForMore(cell, table);
+        }
+        addToList(isBent ? kOtherCells : kSmoothCells, index, table);
+    } else if (ownOf(index, table) == kEvenPixels && areQuartersTooBent(cell, table)) {
         askForOwn(cell, kAllPixels, table);
+    }
+}
+
+void main() {
+    keepTables();
+    GlowTable table = glowTable;
+    if (kStep == kRefineSort) {
+        if (gl_GlobalInvocationID.x < table.columnCells * table.rowCells) {
+            sortCell(gl_GlobalInvocationID.x, table);
+        }
+        return;
+    }
+    const uint kList = kStep == kRefinePatches ? kHazyCells : kOtherCells;
+    uint count = cellCount(kList, table);
+    for (uint k = firstOfList(); k < count; k += kListGroups * kGroupSize) {
+        refineCell(cellOfList(kList, k, table), table);
     }
 }

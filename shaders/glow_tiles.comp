@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "glow_tile.glsl"
 
 layout(local_size_x = kTileGroup) in;
@@ -57,6 +58,8 @@ void listPanes(RayBundle bundle, GlowTable table, inout GlowTile found) {
 }
 
 void main() {
+    keepTables();
+    keepNearTable();
     GlowTable table = glowTable;
     uint index = gl_GlobalInvocationID.x;
     if (index >= table.columnTiles * table.rowTiles) {

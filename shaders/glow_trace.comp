@@ -9,11 +9,14 @@
 // nearer to each other than kMediaGap are one run.
 #define precise
 
+#define NIGHTCITY_KEEP_TABLES
 #include "glow_along_ray.glsl"
 
 layout(local_size_x = kTraceGroup) in;
 
 void main() {
+    keepTables();
+    keepNearTable();
     GlowTable table = glowTable;
     uint tile = tileOfGroup(gl_WorkGroupID.x, table);
     if (gl_WorkGroupID.x >= table.columnTiles * table.rowTiles) {

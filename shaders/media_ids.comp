@@ -18,7 +18,7 @@ void main() {
     }
     const uint kPixels = kGlowCell * kGlowCell;
     uint count = kPixels * UintArray(table.mixedCells).at[0];
-    for (uint k = gl_GlobalInvocationID.x; k < count; k += kMediaIdGroups * kGroupSize) {
+    for (uint k = firstOfList(); k < count; k += kListGroups * kGroupSize) {
         uint cell = UintArray(table.mixedCells).at[1u + k / kPixels];
         ivec2 first = ivec2(cell % table.columnCells, cell / table.columnCells) * int(kGlowCell);
         ivec2 at = first + ivec2(k % kGlowCell, k / kGlowCell % kGlowCell);

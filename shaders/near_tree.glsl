@@ -15,7 +15,15 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Nea
     NearTable table;
 };
 
+#ifdef NIGHTCITY_KEEP_TABLES
+NearTable nearTable;
+
+void keepNearTable() {
+    nearTable = NearReference(sceneTable.nearField).table;
+}
+#else
 #define nearTable NearReference(sceneTable.nearField).table
+#endif
 
 // m, and as a share of the distance: more than float loses in places and planes.
 const float kBundleSlack = 1e-2;

@@ -425,7 +425,7 @@ void FrameRenderer::traceGlow(Work& work, const PushConstants& push, bool last) 
             if ((pipelines_->choice.aovs & kAovMediaId) != 0) {
                 glow_->recordMedia(commands, push, timed);
                 timed("media ids", [&] {
-                    pipelines_->mediaIds.dispatch(commands, &push, kMediaIdGroups);
+                    pipelines_->mediaIds.dispatch(commands, &push, kListGroups);
                 });
             }
             glow_->record(commands, push, timed);

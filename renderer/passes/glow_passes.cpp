@@ -25,7 +25,7 @@ static_assert(sizeof(GlowSample) == 16);
 static_assert(sizeof(GlowTile) == 12);
 static_assert(sizeof(GlowLedger) == 8);
 static_assert(sizeof(MediumSeen) == 8);
-static_assert(sizeof(GlowTable) == 10 * 8 + 44);
+static_assert(sizeof(GlowTable) == 11 * 8 + 44);
 
 std::uint32_t cellsFor(std::uint32_t pixels) {
     return (pixels + kGlowCell - 1) / kGlowCell;
@@ -72,12 +72,17 @@ GlowPasses::GlowPasses(gpu::Device& device, gpu::Commands& commands, std::uint32
       trace_(makePipeline(device, "glow trace", kGlowTraceSpirv, {},
                           {near.points ? 1u : 0u, near.cutAll ? 1u : 0u, near.thinHaze ? 1u : 0u,
                            ledgerBytes_ != 0 ? 1u : 0u, emitterConstant(near.emitter)})),
-      refine_(makePipeline(device, "glow refine", kGlowRefineSpirv, {})),
-      composite_(makePipeline(device, "glow composite", kGlowCompositeSpirv, {}, {0, aovs})),
       mediaCorners_(makePipeline(device, "media corners", kMediaCornersSpirv, {})),
       mediaCells_(makePipeline(device, "media cells", kMediaCellsSpirv, {})),
       paneCounter_(device, "glow pane counter", 4),
       table_(device, "glow table", sizeof(GlowTable), gpu::MemoryKind::device) {
+    for (std::uint32_t step = 0; step < kRefineSteps; ++step) {
+        refine_[step] = makePipeline(device, "glow refine", kGlowRefineSpirv, {}, {step});
+    }
+    for (std::size_t i = 0; i < kCompositeLists.size(); ++i) {
+        composite_[i] = makePipeline(device, "glow composite", kGlowCompositeSpirv, {},
+                                     {kCompositeLists[i], aovs});
+    }
     contents_.paneCounter = addressWords(paneCounter_.buffer().address());
     reservePanes(kFirstPanes);
     clearBand();
@@ -114,6 +119,8 @@ void GlowPasses::reserve(std::uint32_t width, std::uint32_t rows) {
             make(mediaSeen_, "media seen", std::uint64_t{pixels} * sizeof(MediumSeen));
         contents_.mixedCells = make(mixedCells_, "mixed cells", (std::uint64_t{pixels} + 1) * 4);
     }
+    const std::uint64_t cells = std::uint64_t{tiles} * kTileCells * kTileCells;  // or fewer
+    contents_.lists = make(lists_, "lists of cells", kCellLists * (cells + 1) * 4);
     contents_.tiles = make(tileTable_, "glow tiles", std::uint64_t{tiles} * sizeof(GlowTile));
     contents_.tileRays = make(tileRays_, "glow rays", std::uint64_t{tiles} * kTilePixels * 4);
     pixels_ = pixels;
@@ -154,8 +161,14 @@ void GlowPasses::setBand(const GlowBand& band, std::uint32_t width, float tolera
 }
 
 void GlowPasses::recordWarmUp(VkCommandBuffer commands, const PushConstants& push) const {
-    for (const gpu::ComputePipeline* pipeline : {&plan_, &tiles_, &trace_, &refine_, &composite_}) {
+    for (const gpu::ComputePipeline* pipeline : {&plan_, &tiles_, &trace_}) {
         pipeline->dispatch(commands, &push, 1);
+    }
+    for (const gpu::ComputePipeline& pipeline : refine_) {
+        pipeline.dispatch(commands, &push, 1);
+    }
+    for (const gpu::ComputePipeline& pipeline : composite_) {
+        pipeline.dispatch(commands, &push, 1);
     }
 }
 
@@ -171,6 +184,18 @@ void GlowPasses::recordMedia(VkCommandBuffer commands, const PushConstants& push
     });
 }
 
+void GlowPasses::recordRefine(VkCommandBuffer commands, const PushConstants& push,
+                              std::uint32_t groups) const {
+    if (push.round == 1) {
+        refine_[kRefineEdges].dispatch(commands, &push, kListGroups);
+        refine_[kRefineSort].dispatch(commands, &push, groups);
+        gpu::computeBarrier(commands);  // the next adds to the list that the first goes through
+        refine_[kRefinePatches].dispatch(commands, &push, kListGroups);
+    } else {
+        refine_[kRefineQuarters].dispatch(commands, &push, kListGroups);
+    }
+}
+
 void GlowPasses::record(VkCommandBuffer commands, PushConstants push, const Timed& timed) const {
     const std::uint32_t cells = contents_.columnCells * contents_.rowCells;
     const std::uint32_t groups = (cells + kGroupSize - 1) / kGroupSize;
@@ -178,19 +203,25 @@ void GlowPasses::record(VkCommandBuffer commands, PushConstants push, const Time
     for (const gpu::Buffer* masks : {&cells_, &traced_}) {
         vkCmdFillBuffer(commands, masks->get(), 0, std::uint64_t{cells} * 4, 0);
     }
+    vkCmdFillBuffer(commands, lists_.get(), 0, kCellLists * 4, 0);
     vkCmdFillBuffer(commands, paneCounter_.buffer().get(), 0, 4, 0);
     gpu::computeBarrier(commands);
     for (push.round = 0; push.round < kGlowRounds; ++push.round) {
-        const bool first = push.round == 0;
-        timed(first ? "plan" : "refine", [&] {
-            (first ? plan_ : refine_).dispatch(commands, &push, groups);
-        });
+        if (push.round == 0) {
+            timed("plan", [&] { plan_.dispatch(commands, &push, groups); });
+        } else {
+            timed("refine", [&] { recordRefine(commands, push, groups); });
+        }
         timed("tiles", [&] {
             tiles_.dispatch(commands, &push, (tiles + kTileGroup - 1) / kTileGroup);
         });
         timed("glow", [&] { trace_.dispatch(commands, &push, tiles); });
     }
-    timed("composite", [&] { composite_.dispatch(commands, &push, groups); });
+    timed("composite", [&] {
+        for (const gpu::ComputePipeline& pipeline : composite_) {
+            pipeline.dispatch(commands, &push, kListGroups);
+        }
+    });
     paneCounter_.recordReadback(commands);
 }
 

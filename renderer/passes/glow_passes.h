@@ -5,6 +5,7 @@
 // along them, choose more where glow bends, composite; and which media are seen first.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -61,15 +62,22 @@ public:
     bool makeRoom();
 
 private:
+    // `groups`: of a pass over all cells.
+    void recordRefine(VkCommandBuffer commands, const PushConstants& push,
+                      std::uint32_t groups) const;
     void reservePanes(std::uint32_t count);
 
     gpu::Device& device_;
     gpu::Commands& commands_;
     std::uint64_t ledgerBytes_;  // a pixel; 0: none is kept
     bool seesMedia_;             // their ids are asked for
-    gpu::ComputePipeline plan_, tiles_, trace_, refine_, composite_;
+    gpu::ComputePipeline plan_, tiles_, trace_;
+    std::array<gpu::ComputePipeline, kRefineSteps> refine_;
+    // The lists that pixels are composited from.
+    static constexpr std::array kCompositeLists{kClearCells, kSmoothCells, kOtherCells};
+    std::array<gpu::ComputePipeline, kCompositeLists.size()> composite_;
     gpu::ComputePipeline mediaCorners_, mediaCells_;
-    gpu::Buffer samples_, ledger_, cells_, traced_, tileTable_, tileRays_, tilePanes_;
+    gpu::Buffer samples_, ledger_, cells_, traced_, lists_, tileTable_, tileRays_, tilePanes_;
     gpu::Buffer mediaSeen_, mixedCells_;
     gpu::ReadableBuffer paneCounter_;
     gpu::Buffer table_;

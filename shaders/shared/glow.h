@@ -19,14 +19,33 @@ NIGHTCITY_BEGIN
 #define NIGHTCITY_CONSTANT_THIN_HAZE 2  // 1: as nearPiece of transport/near_window.h has it
 #define NIGHTCITY_CONSTANT_LEDGER 3     // 1: a GlowLedger a ray is kept
 #define NIGHTCITY_CONSTANT_NEAR_EMITTER 4  // kEmitterIsotropic and so on
+// Of glow_refine.comp: kRefineEdges and so on. Of glow_composite.comp: the list of cells that it
+// takes, and NIGHTCITY_CONSTANT_AOVS. A device that runs both sides of a branch then
+// reads and computes for a cell only what cells of its kind need.
+#define NIGHTCITY_CONSTANT_STEP 0
+#define NIGHTCITY_CONSTANT_LIST 0
 
 NIGHTCITY_CONST uint kGlowCell = 4u;    // pixels a side of a cell; bit 4 row + column of a mask
 NIGHTCITY_CONST uint kGlowRounds = 3u;  // of choosing rays and integrating along them
 NIGHTCITY_CONST uint kTileCells = 8u;   // cells a side of a tile, whose rays share a list of panes
 NIGHTCITY_CONST uint kTilePixels = kTileCells * kTileCells * kGlowCell * kGlowCell;
 NIGHTCITY_CONST uint kTraceGroup = 32u;  // threads of glow_trace.comp, a group a tile
-NIGHTCITY_CONST uint kMediaIdGroups = 64u;  // of media_ids.comp
+NIGHTCITY_CONST uint kListGroups = 64u;  // of passes that take a list of cells; even
 NIGHTCITY_CONST uint kTileGroup = 64u;  // threads of glow_tiles.comp, one a tile
+
+// Lists of cells whose pixels are kept. The order within one is chance, and changes nothing.
+NIGHTCITY_CONST uint kClearCells = 0u;   // that see one face, without haze before the corners
+NIGHTCITY_CONST uint kHazyCells = 1u;    // that see one face, others
+NIGHTCITY_CONST uint kSmoothCells = 2u;  // those of them that are interpolated by the corners
+NIGHTCITY_CONST uint kOtherCells = 3u;   // with more rays of their own
+NIGHTCITY_CONST uint kCellLists = 4u;
+
+// What glow_refine.comp does: the last in the third round, the others in the second.
+NIGHTCITY_CONST uint kRefineEdges = 0u;     // more rays for quarters that see several faces
+NIGHTCITY_CONST uint kRefineSort = 1u;      // kClearCells and kHazyCells from all cells
+NIGHTCITY_CONST uint kRefinePatches = 2u;   // corners of quarters for cells where glow is bent
+NIGHTCITY_CONST uint kRefineQuarters = 3u;  // all pixels of cells where it is bent between these
+NIGHTCITY_CONST uint kRefineSteps = 4u;
 
 // A window as its near part is integrated (transport/near_window.h); one a window. What is said of
 // points holds for all windows where the model's emitter is not the pane, and for spheres of light.
@@ -81,6 +100,8 @@ struct GlowTable {
     uvec2 cells;        // uint a cell, row by row: low half which of its pixels are integrated
                         // along their rays, high half which of those are its own
     uvec2 traced;       // uint a cell: which of its pixels were integrated in earlier rounds
+    uvec2 lists;        // uint: how many cells each of kCellLists holds, then of each list
+                        // room for all cells
     uvec2 tiles;        // GlowTile, row by row
     uvec2 tileRays;     // uint, kTilePixels a tile: pixels of the band
     uvec2 tilePanes;    // uint, those of one tile after another: into NearTable.panes
