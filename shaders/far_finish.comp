@@ -27,27 +27,28 @@ const float kErrorOfValue = 5e-4;
 // Sum of a node in the air, W m^-2; `found` is false in a solid and where no node is. `place`: in
 // node spacings of scale 0 from the lattice's corner.
 vec3 airNode(FarFieldTable field, ivec3 place, out bool found) {
-    ivec3 counts = ivec3(field.cellCounts);
     found = false;
-    // A node on a face belongs to two bricks, on an edge to four; some may not be there.
-    for (int i = 0; i < 8; ++i) {
+    // A node on a face belongs to two bricks, on an edge to four; some may not be there. The loop
+    // goes through the subsets of the axes along which the place is between two cells.
+    uvec3 between = uvec3(equal(place & 7, ivec3(0))) << uvec3(0u, 1u, 2u);
+    uint axes = between.x | between.y | between.z;
+    uint i = 0u;
+    do {
         ivec3 back = ivec3(i, i >> 1, i >> 2) & 1;
         uint index = brickAt(field, (place - back) >> 3);
-        if (index == kNone) {
-            continue;
-        }
-        FarBrick brick = FarBrickArray(field.bricks).at[index];
+        FarBrick brick = FarBrickArray(field.bricks).at[index == kNone ? 0u : index];
         ivec3 at = place - 8 * ivec3(brick.cell);
         ivec3 steps = at >> brick.scale;
-        if (steps << brick.scale == at && all(lessThanEqual(steps, ivec3(8)))) {
+        if (index != kNone && steps << brick.scale == at && all(lessThanEqual(steps, ivec3(8)))) {
             uint node = nodeAt(uvec3(steps));
-            found = !isSolid(index, node);
-            if (found) {
+            if (!isSolid(index, node)) {
+                found = true;
                 return vec3(Uvec3Array(bakeTable.sums).at[index * kBrickNodes + node]) *
                        FloatArray(bakeTable.units).at[index];
             }
         }
-    }
+        i = (i - axes) & axes;
+    } while (i != 0u);
     return vec3(0.0);
 }
 
@@ -104,16 +105,32 @@ NodeValue keptInTheMean(FarFieldTable field, ivec3 place, uint scale, vec3 value
     return NodeValue(kept, largestOf(error));
 }
 
-// From the two nodes that follow in a direction; 0 and false where the first is no air. Below 0
-// only as far as straight interpolation reaches 0 in the middle.
-vec3 goingOn(FarFieldTable field, ivec3 place, ivec3 way, out bool found) {
-    vec3 first = airNode(field, place + way, found);
+// From the two nodes that follow in a direction; 0 where the first, which is given too, is no air.
+// Below 0 only as far as straight interpolation reaches 0 in the middle.
+vec3 goingOn(FarFieldTable field, ivec3 place, ivec3 way, out vec3 first, out bool found) {
+    first = airNode(field, place + way, found);
     if (!found) {
         return vec3(0.0);
     }
     bool foundSecond;
     vec3 second = airNode(field, place + 2 * way, foundSecond);
     return foundSecond ? max(2.0 * first - second, -first) : first;
+}
+
+const int kWays = 27;  // to the nodes around one, and to itself
+
+ivec3 wayOf(int number) {
+    return ivec3(number % 3, number / 3 % 3, number / 9) - 1;
+}
+
+// From `number` on the next way along as many axes; kWays: none. A loop of its own, so that all
+// threads then look along one.
+int nextWay(int number, int axes) {
+    ivec3 size = abs(wayOf(number));
+    while (number < kWays && size.x + size.y + size.z != axes) {
+        size = abs(wayOf(++number));
+    }
+    return number;
 }
 
 // The mean over the nearest neighbours in the air: along axes, else in planes, else in space. The
@@ -123,15 +140,12 @@ NodeValue fromTheAir(FarFieldTable field, ivec3 place, uint scale) {
         vec3 sum = vec3(0.0);
         vec3 firsts = vec3(0.0);
         float count = 0.0;
-        for (int i = 0; i < 27; ++i) {
-            ivec3 way = ivec3(i % 3, i / 3 % 3, i / 9) - 1;
-            ivec3 size = abs(way);
-            if (size.x + size.y + size.z == axes) {
-                bool found;
-                sum += goingOn(field, place, way << scale, found);
-                firsts += airNode(field, place + (way << scale), found);
-                count += found ? 1.0 : 0.0;
-            }
+        for (int i = nextWay(0, axes); i < kWays; i = nextWay(i + 1, axes)) {
+            bool found;
+            vec3 first;
+            sum += goingOn(field, place, wayOf(i) << scale, first, found);
+            firsts += first;
+            count += found ? 1.0 : 0.0;
         }
         if (count > 0.0) {
             return NodeValue(sum / count, 0.5 * largestOf(abs(sum - firsts)) / count);
