@@ -17,6 +17,10 @@ constexpr std::size_t kRootLevels = 8;  // at most so many below the root
 constexpr std::size_t kMostLevels = (kFarStack - 2 * kRoots) / 256;
 // Windows are parted by their normals while a component of those ranges over more.
 constexpr float kNormalRange = 0.5f;
+// Of the tree, that a brick looks into: measured in cities of 1.2 million windows.
+constexpr std::uint64_t kLightsABrick = 800;
+constexpr std::uint64_t kLightsALargeBrick = 3000;
+constexpr uint kLargeScale = 2;  // of such bricks
 
 struct FarEmitter {
     vec3 centre, reach, normal;  // normal 0: all directions
@@ -220,6 +224,14 @@ FarLights buildFarLights(const FlatScene& scene, std::span<const FarMedium> medi
         }
     }
     return tree;
+}
+
+std::uint64_t plannedFarLights(const FarLayout& layout, std::uint64_t windows) {
+    std::uint64_t lights = 0;
+    for (const FarBrick& brick : layout.bricks) {
+        lights += brick.scale < kLargeScale ? kLightsABrick : kLightsALargeBrick;
+    }
+    return std::min(2 * windows, lights);
 }
 
 std::vector<vec3> emissionOf(const FarLights& tree, const FlatScene& scene,

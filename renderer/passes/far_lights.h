@@ -34,6 +34,9 @@ struct FarLights {
 FarLights buildFarLights(const FlatScene& scene, std::span<const FarMedium> media,
                          const FarCut& cut, Emitter emitter);
 
+// About how many lights such a tree has, and seldom fewer. Large bricks hold many windows.
+std::uint64_t plannedFarLights(const FarLayout& layout, std::uint64_t windows);
+
 // W per channel and light: of the windows that are on. `windowOn`: one byte a window.
 std::vector<vec3> emissionOf(const FarLights& tree, const FlatScene& scene,
                              std::span<const std::uint8_t> windowOn);

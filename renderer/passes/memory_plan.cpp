@@ -23,8 +23,7 @@ constexpr double kNodesABox = 1.75;
 // Cells of facades: their starts and the windows in them (facades.cpp), each about four a window.
 constexpr double kCellsAWindow = 10;
 constexpr double kEdgesAFace = 4;
-constexpr std::uint64_t kLightsABrick = 800;         // of the tree that bricks look into, about
-constexpr std::uint64_t kRoom = 4u << 20;            // of tables, counters and lists that grow
+constexpr std::uint64_t kRoom = 4u << 20;  // of tables, counters and lists that grow
 
 std::uint64_t bytesOf(double count, double each) {
     return static_cast<std::uint64_t>(std::ceil(count * each));
@@ -75,7 +74,7 @@ std::uint64_t fieldBytes(const FlatScene& scene, const FarFieldSettings& setting
     const FarLayout layout = layoutFarField(media, farDetail(scene, settings));
     const std::uint64_t bricks = layout.bricks.size();
     const std::uint64_t windows = scene.windows.size();
-    const std::uint64_t lights = std::min(2 * windows, kLightsABrick * bricks);
+    const std::uint64_t lights = plannedFarLights(layout, windows);
     const std::uint64_t grid = layout.nodes() * kFarNodeBytes +
                                bricks * (sizeof(FarBrick) + 4 * kBrickSideWords + 4) +
                                4 * (layout.index.size() + layout.mediumList.size());

@@ -114,6 +114,20 @@ TEST_F(FarLightsCut, HoldsAllWindowsAndFewLights) {
     EXPECT_NEAR(sumOfFew.z, sum.z, 1e-5f * sum.z);
 }
 
+// From far away bricks are large, and each looks into the windows that it holds.
+TEST_F(FarLightsCut, NeedsNoMoreLightsThanPlanned) {
+    FarDetail detail;
+    const vec3 away(240, -4000, 2000);
+    detail.nodes.spacing = 1;
+    detail.eyes = {&away, 1};
+    detail.mostBricks = 6;
+    layout_ = layoutFarField(media_, detail);
+    const std::uint64_t planned = plannedFarLights(layout_, windows_.size());
+    EXPECT_LT(planned, 2 * windows_.size());
+    EXPECT_GT(lights(kSpread).lights.size(), 800 * layout_.bricks.size());
+    EXPECT_LE(lights(kSpread).lights.size(), planned);
+}
+
 // A window in a bundle counts as one that stands for itself.
 TEST_F(FarLightsCut, ABundleChangesWithItsWindows) {
     const FarLights few = lights(kSpread);
