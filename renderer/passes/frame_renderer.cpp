@@ -422,7 +422,8 @@ void FrameRenderer::traceGlow(Work& work, const PushConstants& push, bool last) 
                 timestamps_.span(commands, name, pass);
                 gpu::computeBarrier(commands);
             };
-            if ((pipelines_->choice.aovs & kAovMediaId) != 0) {
+            if ((pipelines_->choice.aovs & kAovMediaId) != 0 &&
+                push.sampleIndex == work.table.centreSample) {  // no other's is kept
                 glow_->recordMedia(commands, push, timed);
                 timed("media ids", [&] {
                     pipelines_->mediaIds.dispatch(commands, &push, kListGroups);
