@@ -8,6 +8,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "box_interval.glsl"
 #include "camera_ray.glsl"
 #include "glow_cells.glsl"
@@ -43,6 +44,7 @@ int idBefore(Ray ray, float depth, uint index) {
 }
 
 void main() {
+    keepTables();
     GlowTable table = glowTable;
     uint index = gl_GlobalInvocationID.x;
     if (index >= table.columnCells * table.rowCells) {

@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "glow_cells.glsl"
 #include "haze_walk.glsl"
 
@@ -67,6 +68,7 @@ MediumSeen firstMedium(Ray ray, uint cell) {
 }
 
 void main() {
+    keepTables();
     GlowTable table = glowTable;
     uint index = gl_GlobalInvocationID.x;
     if (index >= table.columnCells * table.rowCells) {

@@ -6,12 +6,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "glow_cells.glsl"
 #include "intersect.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
 void main() {
+    keepTables();
     GlowTable table = glowTable;
     if (table.rows == 0u) {
         return;
