@@ -14,6 +14,7 @@
 #include "gpu/device.h"
 #include "gpu/instance.h"
 #include "gpu/physical_device.h"
+#include "passes/field_alarm.h"
 #include "passes/frame_renderer.h"
 #include "passes/gpu_scene.h"
 #include "passes/memory_plan.h"
@@ -123,6 +124,10 @@ public:
             scene_.syncFarField(scene, scene.windowsOn(frame),
                                 farFieldSettings(settings, scene, camera), progress);
         }
+        if (all || changes.geometry) {
+            fieldNote_.reset();
+            isFieldEstimated_ = false;
+        }
         flatScene_ = &scene;
         renderer_.sceneChanged();
         const std::chrono::duration<double, std::milli> wall =
@@ -144,6 +149,7 @@ public:
                 const ProgressCallback& progress) override {
         checkProduct(product, settings);
         const CameraFrame& camera = flatScene_->camera(product.camera).at(product.frame);
+        estimateField(camera, product, settings);
         frame_ = {};
         if (product.pixels.empty()) {
             frame_.resize(product.width, product.rows().count);
@@ -169,10 +175,29 @@ public:
         if (!scene_.lights().note().empty()) {
             all.push_back(scene_.lights().note());
         }
+        if (fieldNote_) {
+            all.push_back(*fieldNote_);
+        }
         return all;
     }
 
 private:
+    // Once a scene, before its first frame.
+    void estimateField(const CameraFrame& camera, const RenderProduct& product,
+                       const RenderSettings& settings) {
+        const bool field = settings.method == Method::field && settings.media;
+        if (!field || isFieldEstimated_ || !scene_.farField().hasLargeBricks()) {
+            return;
+        }
+        isFieldEstimated_ = true;
+        const std::optional<double> estimate =
+            estimateFieldError(device_, commands_, scene_, camera, product, settings);
+        if (estimate) {
+            fieldNote_ = fieldAlarm(*estimate, settings.tolerance.value_or(kFieldTolerance),
+                                    scene_.farField().brickCount());
+        }
+    }
+
     void checkProduct(const RenderProduct& product, const RenderSettings& settings) const {
         if (flatScene_ == nullptr) {
             throw std::logic_error("render before a sync that succeeded");
@@ -225,6 +250,8 @@ private:
     Frame frame_;
     RenderStatistics statistics_;
     std::vector<std::string> deviceNotes_;
+    std::optional<std::string> fieldNote_;
+    bool isFieldEstimated_ = false;
 };
 
 std::string describeInOneLine(std::size_t index, const gpu::DeviceDescription& device) {

@@ -253,6 +253,10 @@ void FarFieldGrid::dispatch(const char* name, const gpu::ComputePipeline& pipeli
     }));
 }
 
+bool FarFieldGrid::hasLargeBricks() const {
+    return std::ranges::any_of(layout_.bricks, [](const FarBrick& brick) { return brick.scale > 0; });
+}
+
 std::uint64_t FarFieldGrid::bytes() const {
     std::uint64_t bytes = 0;
     for (const gpu::Buffer& array : arrays_) {

@@ -70,6 +70,9 @@ public:
     const gpu::Buffer& nodes() const { return nodes_; }  // uvec2 each, as frames read them
     std::uint64_t nodeCount() const { return layout_.nodes(); }
     std::uint64_t brickCount() const { return layout_.bricks.size(); }
+    // Larger ones than the smallest: their nodes are as far apart as their number allows, not as
+    // the tolerance asks.
+    bool hasLargeBricks() const;
     std::uint64_t bytes() const;  // on the device
     // What the device took for the last syncWindowState, by pass, with the syncGeometry before it.
     const std::vector<PassTime>& passTimes() const { return passTimes_; }

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/field_alarm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "aovs.h"
+
+namespace nightcity {
+namespace {
+
+constexpr std::uint32_t kWidth = 192;  // pixels
+// In tolerances: where bricks are as small as the tolerance asks, the median estimate is at most 1.
+constexpr double kAlarming = 2;
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+    return text;
+}
+
+}  // namespace
+
+std::optional<double> estimateFieldError(gpu::Device& device, gpu::Commands& commands,
+                                         const GpuScene& scene, const CameraFrame& camera,
+                                         const RenderProduct& product,
+                                         const RenderSettings& settings) {
+    RenderProduct small = product;
+    small.width = std::min(product.width, kWidth);
+    small.height = std::max<std::uint32_t>(
+        1, static_cast<std::uint32_t>(std::uint64_t{product.height} * small.width / product.width));
+    small.pixels.clear();
+    small.tile.reset();
+    small.aovs = kAovGlow | kAovError;
+    RenderSettings single = settings;
+    single.pixelSamples = 1;
+    Frame frame;
+    frame.resize(small.width, small.height);
+    FrameRenderer(device, commands).render(scene, camera, small, single, {}, frame);
+    std::vector<float> errors;
+    for (std::size_t i = 0; i < frame.error.size(); ++i) {
+        if (frame.error[i] > 0) {
+            errors.push_back(frame.error[i]);
+        }
+    }
+    if (errors.empty()) {
+        return std::nullopt;
+    }
+    const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    return *middle;
+}
+
+std::optional<std::string> fieldAlarm(double estimate, double tolerance, std::uint64_t bricks) {
+    if (estimate <= kAlarming * tolerance) {
+        return std::nullopt;
+    }
+    return "the " + std::to_string(bricks) +
+           " bricks of the field are too coarse for what this camera sees: it estimates that half "
+           "of the glow may be off by " + percent(estimate) + " or more, where --tolerance asks for " +
+           percent(tolerance) + " (--aovs error shows where); --method gauss keeps to the tolerance, "
+           "however long that takes";
+}
+
+}  // namespace nightcity
