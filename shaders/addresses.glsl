@@ -60,8 +60,12 @@ layout(push_constant, scalar) uniform Push {
 SceneTable sceneTable;
 FrameTable frameTable;
 
-void keepTables() {
+void keepSceneTable() {
     sceneTable = SceneReference(push.scene).table;
+}
+
+void keepTables() {
+    keepSceneTable();
     frameTable = FrameReference(push.frame).table;
 }
 #else

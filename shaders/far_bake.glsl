@@ -21,9 +21,15 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Far
     FarBakeTable table;
 };
 
-// The table of the pass: the bake has no frame.
-#define bakeTable FarBakeReference(push.frame).table
-#define bakedField FarFieldReference(bakeTable.field).table
+// The tables of the pass, kept at hand (addresses.glsl): the bake has no frame.
+FarBakeTable bakeTable;
+FarFieldTable bakedField;
+
+void keepBakeTables() {
+    keepSceneTable();
+    bakeTable = FarBakeReference(push.frame).table;
+    bakedField = FarFieldReference(bakeTable.field).table;
+}
 
 const uint kBrickSide = kBrickSteps + 1u;  // nodes
 

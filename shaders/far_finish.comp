@@ -7,6 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "far_bake.glsl"
 
 layout(local_size_x = kGroupSize) in;
@@ -155,6 +156,7 @@ NodeValue fromTheAir(FarFieldTable field, ivec3 place, uint scale) {
 }
 
 void main() {
+    keepBakeTables();
     FarFieldTable field = bakedField;
     uint index = groupBrick();
     FarBrick brick = FarBrickArray(field.bricks).at[index];

@@ -8,6 +8,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "far_hiding.glsl"
 #include "far_mesh.glsl"
 #include "far_window.glsl"
@@ -223,6 +224,7 @@ void findClusters(uvec2 counts, FarBrick brick, vec3 origin, FarFieldTable field
 }
 
 void main() {
+    keepBakeTables();
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
     float side = brickSide(field, brick);

@@ -7,6 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "far_bake.glsl"
 #include "convex_face.glsl"
 #include "occluders.glsl"
@@ -86,6 +87,7 @@ uint sideOfBrick(vec3 corner, float side) {
 }
 
 void main() {
+    keepBakeTables();
     uint thread = gl_LocalInvocationIndex;
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];

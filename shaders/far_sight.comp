@@ -8,6 +8,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "far_bake.glsl"
 #include "far_hiding.glsl"
 
@@ -151,6 +152,7 @@ void append(uint index, FarLight light, uint how, vec3 brickCentre, vec3 brickHa
 }
 
 void main() {
+    keepBakeTables();
     uint thread = gl_LocalInvocationIndex;
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];

@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
+#define NIGHTCITY_KEEP_TABLES
 #include "far_column.glsl"
 #include "far_mesh.glsl"
 
@@ -153,6 +154,7 @@ Column columnOf(uint thread, FarBrick brick, FarFieldTable field, vec3 origin) {
 }
 
 void main() {
+    keepBakeTables();
     FarFieldTable field = bakedField;
     FarBrick brick = FarBrickArray(field.bricks).at[groupBrick()];
     if ((kPart == kSumFine && brick.scale > 0u) || (kPart == kSumCoarse && brick.scale == 0u)) {
