@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_delegate.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -186,7 +187,9 @@ private:
     void estimateField(const CameraFrame& camera, const RenderProduct& product,
                        const RenderSettings& settings) {
         const bool field = settings.method == Method::field && settings.media;
-        if (!field || isFieldEstimated_ || !scene_.farField().hasLargeBricks()) {
+        const std::vector<std::uint8_t> on = flatScene_->windowsOn(product.frame);
+        const bool isDark = std::ranges::none_of(on, [](std::uint8_t lit) { return lit != 0; });
+        if (!field || isFieldEstimated_ || isDark || !scene_.farField().hasLargeBricks()) {
             return;
         }
         isFieldEstimated_ = true;

@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t kWidth = 192;  // pixels
 // In tolerances: where bricks are as small as the tolerance asks, the median estimate is at most 1.
 constexpr double kAlarming = 2;
+constexpr float kHazy = 1 - 1e-5f;  // transmittance; below it rounding is no haze
 
 std::string percent(double share) {
     char text[32];
@@ -34,7 +35,7 @@ std::optional<double> estimateFieldError(gpu::Device& device, gpu::Commands& com
         1, static_cast<std::uint32_t>(std::uint64_t{product.height} * small.width / product.width));
     small.pixels.clear();
     small.tile.reset();
-    small.aovs = kAovGlow | kAovError;
+    small.aovs = kAovGlow | kAovError | kAovTransmittance;
     RenderSettings single = settings;
     single.pixelSamples = 1;
     Frame frame;
@@ -42,8 +43,8 @@ std::optional<double> estimateFieldError(gpu::Device& device, gpu::Commands& com
     FrameRenderer(device, commands).render(scene, camera, small, single, {}, frame);
     std::vector<float> errors;
     for (std::size_t i = 0; i < frame.error.size(); ++i) {
-        if (frame.error[i] > 0) {
-            errors.push_back(frame.error[i]);
+        if (frame.transmittance[i] < kHazy) {
+            errors.push_back(frame.glow[i] == glm::vec3(0) ? 1 : frame.error[i]);
         }
     }
     if (errors.empty()) {

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Nightcity authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether a user hears of it where the field is too coarse for what the camera sees.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "device_frame.h"
+#include "passes/field_alarm.h"
+
+namespace nightcity {
+namespace {
+
+bool saysTooCoarse(const std::vector<std::string>& notes) {
+    return std::ranges::any_of(notes, [](const std::string& note) {
+        return note.find("too coarse") != std::string::npos;
+    });
+}
+
+RenderSettings fieldSettings() {
+    RenderSettings settings;
+    settings.method = Method::field;
+    settings.model = {Lights::all, Visibility::none, Emitter::pane};
+    settings.tolerance = 0.03;
+    return settings;
+}
+
+TEST(FieldAlarms, AreOfEstimatesFarAboveTheTolerance) {
+    EXPECT_FALSE(fieldAlarm(0.05, 0.03, 100));
+    const std::optional<std::string> alarm = fieldAlarm(0.42, 0.03, 1750);
+    ASSERT_TRUE(alarm);
+    for (const char* part : {"1750 bricks", "42 %", "3 %", "--method gauss"}) {
+        EXPECT_NE(alarm->find(part), std::string::npos) << part;
+    }
+}
+
+// Three cubic kilometres of haze behind the camera take all bricks but large ones: of the one around
+// the building, 2 km away, no node lies in the haze.
+TEST(FieldAlarms, AreHeardWhereBricksAreLarge) {
+    SceneBuilder city = paperCity(1);
+    city.addCamera("away", {-2000, 0, 200}, {0, 0, 15}, 2);
+    RenderProduct product = productOf("away", 48, 27);
+    const FlatScene small = city.load();
+    renderOnDevice(small, product, fieldSettings());
+    EXPECT_FALSE(saysTooCoarse(testDelegate().notes()));
+    city.addMediaBox({-6050, -2000, 0}, {-2050, 2000, 200}, 1e-5f, 0.9f);
+    const FlatScene large = city.load();
+    renderOnDevice(large, product, fieldSettings());
+    EXPECT_TRUE(saysTooCoarse(testDelegate().notes()));
+}
+
+}  // namespace
+}  // namespace nightcity
