@@ -36,7 +36,7 @@ TEST(FieldAlarms, AreOfEstimatesFarAboveTheTolerance) {
 }
 
 // Three cubic kilometres of haze behind the camera take all bricks but large ones: of the one around
-// the building, 2 km away, no node lies in the haze.
+// the building, 2 km away, no node lies in the haze, which is not black for that.
 TEST(FieldAlarms, AreHeardWhereBricksAreLarge) {
     SceneBuilder city = paperCity(1);
     city.addCamera("away", {-2000, 0, 200}, {0, 0, 15}, 2);
@@ -46,7 +46,15 @@ TEST(FieldAlarms, AreHeardWhereBricksAreLarge) {
     EXPECT_FALSE(saysTooCoarse(testDelegate().notes()));
     city.addMediaBox({-6050, -2000, 0}, {-2050, 2000, 200}, 1e-5f, 0.9f);
     const FlatScene large = city.load();
-    renderOnDevice(large, product, fieldSettings());
+    const Frame frame = renderOnDevice(large, product, fieldSettings());
+    std::size_t hazy = 0, black = 0;
+    for (std::size_t i = 0; i < frame.glow.size(); ++i) {
+        const bool isHazy = frame.transmittance[i] < 0.999f;
+        hazy += isHazy ? 1 : 0;
+        black += isHazy && frame.glow[i] == glm::vec3(0) ? 1 : 0;
+    }
+    EXPECT_GT(hazy, 100u);
+    EXPECT_EQ(black, 0u);
     EXPECT_TRUE(saysTooCoarse(testDelegate().notes()));
 }
 
