@@ -24,6 +24,7 @@ from nightcity.errors import NightcityError
 from nightcity.render import renderer
 
 _REPEATS = 3
+_STAGE = "city"  # and what its layers begin with
 FRAMES: Mapping[str, tuple[str, ...]] = {
     "surface": ("--media", "off"),
     "march": ("--model", "paper", "--method", "march"),
@@ -79,7 +80,7 @@ class _Run:
         """Every step of a city; whether there is one: False where it could not be exported."""
         options, city = self._options, self.found.city(grid)
         work = self._folder / f"{grid}x{grid}"
-        stage, scene = work / "city.usda", work / "scene"
+        stage, scene = work / f"{_STAGE}.usda", work / "scene"
         made = ["generate", "--preset", options.preset, "--grid", f"{grid}x{grid}", "-o", stage]
         steps = {
             "generate": (lambda: _costs(made, options.limit), stage),
@@ -151,8 +152,10 @@ def _sizes(work: Path, scene: Path) -> dict[str, float]:
         ("triangles", "triangle"), ("light_list_entries", "light_list"),
     )}  # fmt: skip
     flat = sum(path.stat().st_size for path in scene.iterdir())
-    everything = sum(path.stat().st_size for path in work.rglob("*") if path.is_file())
-    return counts | {"stage bytes": everything - flat, "flat scene bytes": flat}
+    # Not all that lies there: a run that was killed may have left an image behind.
+    files = (path for part in work.glob(f"{_STAGE}.*") for path in (part, *part.rglob("*")))
+    stage = sum(path.stat().st_size for path in files if path.is_file())
+    return counts | {"stage bytes": stage, "flat scene bytes": flat}
 
 
 def _frame(scene: Path, method: str, options: GrowthOptions, work: Path) -> dict[str, float]:

@@ -53,6 +53,9 @@ def test_cost_of_a_process() -> None:
 def test_small_growth(nightcity: Command, tmp_path: Path) -> None:
     """In two runs: the second takes over what the first measured."""
     command = ("bench", "growth", "-o", tmp_path, "--methods", "surface,march", "--size", "64x36")
+    left = tmp_path / "1x1" / "frame.exr"  # by a run that was killed
+    left.parent.mkdir()
+    left.write_bytes(bytes(1 << 20))
     nightcity(*command, "--grids", "1,3")
     first = cities(tmp_path)
     nightcity(*command, "--grids", "1,2,3")
@@ -63,6 +66,7 @@ def test_small_growth(nightcity: Command, tmp_path: Path) -> None:
         assert int(row["buildings"]) == int(row["grid"]) ** 2
         assert all(float(value) > 0 for name, value in row.items()), row
     assert int(rows[2]["windows"]) > int(rows[0]["windows"])
+    assert all(float(row["stage bytes"]) < 1 << 20 for row in rows)
     assert float(rows[2]["flat scene bytes"]) > float(rows[0]["flat scene bytes"])
     assert {path.name for path in tmp_path.iterdir()} == {
         "growth.json", "growth.csv", "growth.svg", "growth.png",
