@@ -183,13 +183,15 @@ public:
     }
 
 private:
-    // Once a scene, before its first frame.
+    // Once a scene, before its first frame with a lit window.
     void estimateField(const CameraFrame& camera, const RenderProduct& product,
                        const RenderSettings& settings) {
         const bool field = settings.method == Method::field && settings.media;
+        if (!field || isFieldEstimated_ || !scene_.farField().hasLargeBricks()) {
+            return;
+        }
         const std::vector<std::uint8_t> on = flatScene_->windowsOn(product.frame);
-        const bool isDark = std::ranges::none_of(on, [](std::uint8_t lit) { return lit != 0; });
-        if (!field || isFieldEstimated_ || isDark || !scene_.farField().hasLargeBricks()) {
+        if (std::ranges::none_of(on, [](std::uint8_t lit) { return lit != 0; })) {
             return;
         }
         isFieldEstimated_ = true;

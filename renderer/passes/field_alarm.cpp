@@ -3,7 +3,6 @@
 #include "passes/field_alarm.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <vector>
 

@@ -13,8 +13,8 @@
 namespace nightcity {
 
 // The median over the hazy pixels of a small frame of the error that the field itself estimates
-// (docs/accuracy.md), relative, and 1 where the haze is black. None
-// where no pixel sees haze. The scene's field must be synced, and some of its windows lit.
+// (docs/accuracy.md), relative, and 1 where the haze is black. None where no pixel sees haze. The
+// scene's field must be synced, and some of its windows lit.
 std::optional<double> estimateFieldError(gpu::Device& device, gpu::Commands& commands,
                                          const GpuScene& scene, const CameraFrame& camera,
                                          const RenderProduct& product,

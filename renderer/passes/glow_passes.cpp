@@ -174,21 +174,22 @@ void GlowPasses::recordWarmUp(VkCommandBuffer commands, const PushConstants& pus
 
 void GlowPasses::recordMedia(VkCommandBuffer commands, const PushConstants& push,
                              const Timed& timed) const {
-    const std::uint32_t cells = contents_.columnCells * contents_.rowCells;
-    const std::uint32_t groups = (cells + kGroupSize - 1) / kGroupSize;
     vkCmdFillBuffer(commands, mixedCells_.get(), 0, 4, 0);
     timed("media ids", [&] {
-        mediaCorners_.dispatch(commands, &push, groups);
+        mediaCorners_.dispatch(commands, &push, cellGroups());
         gpu::computeBarrier(commands);
-        mediaCells_.dispatch(commands, &push, groups);
+        mediaCells_.dispatch(commands, &push, cellGroups());
     });
 }
 
-void GlowPasses::recordRefine(VkCommandBuffer commands, const PushConstants& push,
-                              std::uint32_t groups) const {
+std::uint32_t GlowPasses::cellGroups() const {
+    return (contents_.columnCells * contents_.rowCells + kGroupSize - 1) / kGroupSize;
+}
+
+void GlowPasses::recordRefine(VkCommandBuffer commands, const PushConstants& push) const {
     if (push.round == 1) {
         refine_[kRefineEdges].dispatch(commands, &push, kListGroups);
-        refine_[kRefineSort].dispatch(commands, &push, groups);
+        refine_[kRefineSort].dispatch(commands, &push, cellGroups());
         gpu::computeBarrier(commands);  // the next adds to the list that the first goes through
         refine_[kRefinePatches].dispatch(commands, &push, kListGroups);
     } else {
@@ -198,7 +199,6 @@ void GlowPasses::recordRefine(VkCommandBuffer commands, const PushConstants& pus
 
 void GlowPasses::record(VkCommandBuffer commands, PushConstants push, const Timed& timed) const {
     const std::uint32_t cells = contents_.columnCells * contents_.rowCells;
-    const std::uint32_t groups = (cells + kGroupSize - 1) / kGroupSize;
     const std::uint32_t tiles = contents_.columnTiles * contents_.rowTiles;
     for (const gpu::Buffer* masks : {&cells_, &traced_}) {
         vkCmdFillBuffer(commands, masks->get(), 0, std::uint64_t{cells} * 4, 0);
@@ -208,9 +208,9 @@ void GlowPasses::record(VkCommandBuffer commands, PushConstants push, const Time
     gpu::computeBarrier(commands);
     for (push.round = 0; push.round < kGlowRounds; ++push.round) {
         if (push.round == 0) {
-            timed("plan", [&] { plan_.dispatch(commands, &push, groups); });
+            timed("plan", [&] { plan_.dispatch(commands, &push, cellGroups()); });
         } else {
-            timed("refine", [&] { recordRefine(commands, push, groups); });
+            timed("refine", [&] { recordRefine(commands, push); });
         }
         timed("tiles", [&] {
             tiles_.dispatch(commands, &push, (tiles + kTileGroup - 1) / kTileGroup);

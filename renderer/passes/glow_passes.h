@@ -62,9 +62,8 @@ public:
     bool makeRoom();
 
 private:
-    // `groups`: of a pass over all cells.
-    void recordRefine(VkCommandBuffer commands, const PushConstants& push,
-                      std::uint32_t groups) const;
+    std::uint32_t cellGroups() const;  // of a pass over all cells
+    void recordRefine(VkCommandBuffer commands, const PushConstants& push) const;
     void reservePanes(std::uint32_t count);
 
     gpu::Device& device_;
