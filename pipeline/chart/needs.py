@@ -16,7 +16,7 @@ from nightcity.chart.errors import LUMINANCE, relative_errors
 from nightcity.chart.foretell import PERCENTILE
 from nightcity.chart.look import Look
 from nightcity.chart.measure import ShotResults
-from nightcity.chart.recommend import Recommendation, model_errors, recommend
+from nightcity.chart.recommend import Recommendation, recommend
 from nightcity.chart.settings import (
     FULL,
     ISOTROPIC,
@@ -27,6 +27,7 @@ from nightcity.chart.settings import (
     UNOCCLUDED,
     Model,
 )
+from nightcity.chart.switch_cost import Cost, switch_cost
 from nightcity.chart.truth import Values
 
 TOLERANCES = (0.1, 0.02, 0.005)
@@ -57,15 +58,14 @@ class Change:
     """What leaving out a switch's richer side does.
 
     bias: of the mean, with the half-width of its 95 % interval; errors: (N,) of the pixels. cost:
-    time of the richer side to the poorer's by the cheapest settings that are within 2 % of their
-    own model; None where either has none.
+    None where no setting was charted with both sides.
     """
 
     switch: Switch
     bias: float
     interval: float
     errors: NDArray[np.float64]
-    cost: float | None
+    cost: Cost | None
 
     @property
     def p95(self) -> float:
@@ -101,11 +101,8 @@ def _change(results: ShotResults, switch: Switch) -> Change:
     poorer, richer = (results.centres[model.name] for model in (switch.poorer, switch.richer))
     errors = relative_errors(poorer.glow, richer.glow)
     bias, interval = _bias(poorer, richer)
-    costs = [_cheapest_ms(results, model) for model in (switch.richer, switch.poorer)]
-    return Change(
-        *(switch, bias, interval, errors),
-        cost=costs[0] / costs[1] if costs[0] and costs[1] else None,
-    )
+    cost = switch_cost(results, switch.poorer, switch.richer)
+    return Change(switch, bias, interval, errors, cost)
 
 
 def _bias(value: Values, truth: Values) -> tuple[float, float]:
@@ -119,14 +116,3 @@ def _bias(value: Values, truth: Values) -> tuple[float, float]:
     spread = np.std(drawn[:, 0] / drawn[:, 1])
     paths = math.hypot(*(math.sqrt(np.sum((v.error @ LUMINANCE) ** 2)) for v in (value, truth)))
     return float(total[0] / total[1] - 1), float(1.96 * math.hypot(spread, paths / total[1]))
-
-
-def _cheapest_ms(results: ShotResults, model: Model) -> float | None:
-    every = np.ones(len(results.pixels), dtype=bool)
-    times = [
-        measured.steady_ms
-        for measured in results.charted
-        if measured.point.model == model
-        and np.percentile(model_errors(results, measured, model, every), PERCENTILE) <= 0.02
-    ]
-    return min(times, default=None)

@@ -12,6 +12,7 @@ from nightcity.chart.needs import Change, Needs
 from nightcity.chart.recommend import NOISE_SHARE, Recommendation
 from nightcity.chart.settings import FULL, PAPER, SINGLE
 from nightcity.chart.shot import Shot
+from nightcity.chart.switch_cost import Cost, Ratio
 
 
 def as_html(needs: Needs, shot: Shot) -> str:
@@ -24,7 +25,7 @@ def as_html(needs: Needs, shot: Shot) -> str:
             "glow changes by",
             "95 of 100 pixels within",
             "pixels off by more than 2 %",
-            "time with it, to without",
+            "the same setting's time with it, to without",
         )
     )
     parts = [f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody>']
@@ -42,9 +43,24 @@ def _switch_row(change: Change) -> str:
         f"{_signed(change.bias)} ± {_percent(change.interval)}",
         _percent(change.p95),
         _percent(change.beyond(0.02)),
-        "not known" if change.cost is None else f"x {change.cost:.2g}",
+        _cost(change.cost),
     ]
     return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+
+
+def _cost(cost: Cost | None) -> str:
+    if cost is None:
+        return "no setting was timed with both"
+    bake = f", bake {_ratio(cost.bake)}" if cost.bake else ""
+    return escape(f"frame {_ratio(cost.frame)}{bake}: {cost.setting}")
+
+
+def _ratio(ratio: Ratio) -> str:
+    median, lowest, highest = (
+        f"{value:.0f}" if value >= 9.5 else f"{value:.2f}"
+        for value in (ratio.median, ratio.lowest, ratio.highest)
+    )
+    return f"x {median} ({lowest} to {highest})"
 
 
 def _needed(changes: Sequence[Change], tolerance: float) -> str:

@@ -20,8 +20,19 @@ from nightcity.chart.needs import find_needs
 from nightcity.chart.needs_text import as_html
 from nightcity.chart.recommend import recommend
 from nightcity.chart.recommendations import write_recommendations
-from nightcity.chart.runs import PixelTable
-from nightcity.chart.settings import FULL, LADDER, SINGLE, Point, field, gauss, path
+from nightcity.chart.runs import PixelTable, Timing
+from nightcity.chart.settings import (
+    FULL,
+    ISOTROPIC,
+    LADDER,
+    LAMBERTIAN,
+    SINGLE,
+    UNOCCLUDED,
+    Point,
+    field,
+    gauss,
+    path,
+)
 from nightcity.chart.shot import Scene, Shot, Size
 from nightcity.chart.truth import Effort, Values
 
@@ -29,17 +40,16 @@ SIZE = Size(30, 30)
 
 
 def measured(
-    point: Point, ratio: float, glow: np.ndarray, error: np.ndarray | None = None
+    point: Point,
+    ratio: float,
+    glow: np.ndarray,
+    error: np.ndarray | None = None,
+    bake_ms: float = 0.0,
 ) -> Measured:
     found = Measured(point, ratios=[ratio, ratio * 1.01])
     found.frame = FrameFile(glow, glow, error)
-    found.timings = [_Timing(ratio), _Timing(ratio * 1.01)]  # type: ignore[list-item]
+    found.timings = [Timing("", 0, share * ratio, bake_ms, 0, 0, {}) for share in (1, 1.01)]
     return found
-
-
-class _Timing:
-    def __init__(self, steady_frame_ms: float) -> None:
-        self.steady_frame_ms = steady_frame_ms
 
 
 def results(settings: list[Measured], truth: np.ndarray, every: int = 1) -> ShotResults:
@@ -167,6 +177,35 @@ def test_switches_say_what_they_change(truth: np.ndarray, tmp_path: Path) -> Non
     assert rows[4]["setting"] == "field 0.01" and float(rows[4]["error"]) == pytest.approx(
         1 / 85, 1e-3
     )
+
+
+def test_a_switch_costs_what_the_same_setting_takes_with_and_without_it(truth: np.ndarray) -> None:
+    single = 0.85 * truth
+    settings = [
+        # Cheaper than any without the switch, and exact: no like of it was charted without.
+        measured(field(0.1), 1, single, bake_ms=500),
+        measured(gauss(UNOCCLUDED, 0.1), 10, single),
+        measured(gauss(ISOTROPIC, 0.1), 40, single),
+        measured(gauss(LAMBERTIAN, 0.1), 20, single),
+        measured(gauss(SINGLE, 0.01), 4, single),
+        measured(field(0.03, model=ISOTROPIC), 5, single, bake_ms=100),
+        measured(field(0.03, model=LAMBERTIAN), 6, 3 * single, bake_ms=150),
+    ]
+    found = results(settings, truth)
+    needs = find_needs(found, Looks(truth, 0, 0))
+    costs = {change.switch.richer.name: change.cost for change in needs.changes}
+    visibility, lambertian = costs["isotropic windows"], costs["Lambertian windows"]
+    assert visibility and visibility.setting == "gauss --tolerance 0.1" and visibility.bake is None
+    assert visibility.frame.median == pytest.approx(4)
+    # The cheaper of the two settings that both were charted with, as far off as it may be.
+    assert lambertian and lambertian.setting == "field --tolerance 0.03"
+    assert lambertian.frame.median == pytest.approx(1.2)
+    assert lambertian.bake and lambertian.bake.highest == pytest.approx(1.5)
+    assert costs["single"] is None and costs["full"] is None
+    text = as_html(needs, found.shot)
+    assert "frame x 4.00 (4.00 to 4.00): gauss --tolerance 0.1" in text
+    assert "frame x 1.20 (1.20 to 1.20), bake x 1.50 (1.50 to 1.50): field" in text
+    assert text.count("no setting was timed with both") == 4
 
 
 def test_auto_chooses_and_says_so(nightcity: Command, tmp_path: Path) -> None:
