@@ -126,8 +126,7 @@ public:
                                 farFieldSettings(settings, scene, camera), progress);
         }
         if (all || changes.geometry) {
-            fieldNote_.reset();
-            isFieldEstimated_ = false;
+            fieldAlarm_.sceneChanged();
         }
         flatScene_ = &scene;
         renderer_.sceneChanged();
@@ -150,7 +149,7 @@ public:
                 const ProgressCallback& progress) override {
         checkProduct(product, settings);
         const CameraFrame& camera = flatScene_->camera(product.camera).at(product.frame);
-        estimateField(camera, product, settings);
+        fieldAlarm_.update(device_, commands_, scene_, *flatScene_, product, settings);
         frame_ = {};
         if (product.pixels.empty()) {
             frame_.resize(product.width, product.rows().count);
@@ -176,33 +175,13 @@ public:
         if (!scene_.lights().note().empty()) {
             all.push_back(scene_.lights().note());
         }
-        if (fieldNote_) {
-            all.push_back(*fieldNote_);
+        if (fieldAlarm_.note()) {
+            all.push_back(*fieldAlarm_.note());
         }
         return all;
     }
 
 private:
-    // Once a scene, before its first frame with a lit window.
-    void estimateField(const CameraFrame& camera, const RenderProduct& product,
-                       const RenderSettings& settings) {
-        const bool field = settings.method == Method::field && settings.media;
-        if (!field || isFieldEstimated_ || !scene_.farField().hasLargeBricks()) {
-            return;
-        }
-        const std::vector<std::uint8_t> on = flatScene_->windowsOn(product.frame);
-        if (std::ranges::none_of(on, [](std::uint8_t lit) { return lit != 0; })) {
-            return;
-        }
-        isFieldEstimated_ = true;
-        const std::optional<double> estimate =
-            estimateFieldError(device_, commands_, scene_, camera, product, settings);
-        if (estimate) {
-            fieldNote_ = fieldAlarm(*estimate, settings.tolerance.value_or(kFieldTolerance),
-                                    scene_.farField().brickCount());
-        }
-    }
-
     void checkProduct(const RenderProduct& product, const RenderSettings& settings) const {
         if (flatScene_ == nullptr) {
             throw std::logic_error("render before a sync that succeeded");
@@ -255,8 +234,7 @@ private:
     Frame frame_;
     RenderStatistics statistics_;
     std::vector<std::string> deviceNotes_;
-    std::optional<std::string> fieldNote_;
-    bool isFieldEstimated_ = false;
+    FieldAlarm fieldAlarm_;
 };
 
 std::string describeInOneLine(std::size_t index, const gpu::DeviceDescription& device) {

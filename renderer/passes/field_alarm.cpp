@@ -22,8 +22,8 @@ std::string percent(double share) {
     return text;
 }
 
-}  // namespace
-
+// The median over the hazy pixels of a small frame of the error that the field itself estimates
+// (docs/accuracy.md), relative, and 1 where the haze is black. None where no pixel sees haze.
 std::optional<double> estimateFieldError(gpu::Device& device, gpu::Commands& commands,
                                          const GpuScene& scene, const CameraFrame& camera,
                                          const RenderProduct& product,
@@ -54,6 +54,8 @@ std::optional<double> estimateFieldError(gpu::Device& device, gpu::Commands& com
     return *middle;
 }
 
+}  // namespace
+
 std::optional<std::string> fieldAlarm(double estimate, double tolerance, std::uint64_t bricks) {
     if (estimate <= kAlarming * tolerance) {
         return std::nullopt;
@@ -63,6 +65,37 @@ std::optional<std::string> fieldAlarm(double estimate, double tolerance, std::ui
            "of the glow may be off by " + percent(estimate) + " or more, where --tolerance asks for " +
            percent(tolerance) + " (--aovs error shows where); --method gauss keeps to the tolerance, "
            "however long that takes";
+}
+
+void FieldAlarm::sceneChanged() {
+    estimated_.reset();
+    note_.reset();
+}
+
+void FieldAlarm::update(gpu::Device& device, gpu::Commands& commands, const GpuScene& scene,
+                        const FlatScene& flat, const RenderProduct& product,
+                        const RenderSettings& settings) {
+    const bool field = settings.method == Method::field && settings.media;
+    const double tolerance = settings.tolerance.value_or(kFieldTolerance);
+    const View view{product.camera, tolerance, settings.model};
+    if (field && estimated_ == view) {
+        return;
+    }
+    sceneChanged();
+    if (!field || !scene.farField().hasLargeBricks()) {
+        return;
+    }
+    const std::vector<std::uint8_t> on = flat.windowsOn(product.frame);
+    if (std::ranges::none_of(on, [](std::uint8_t lit) { return lit != 0; })) {
+        return;
+    }
+    estimated_ = view;
+    const CameraFrame& camera = flat.camera(product.camera).at(product.frame);
+    const std::optional<double> estimate =
+        estimateFieldError(device, commands, scene, camera, product, settings);
+    if (estimate) {
+        note_ = fieldAlarm(*estimate, tolerance, scene.farField().brickCount());
+    }
 }
 
 }  // namespace nightcity

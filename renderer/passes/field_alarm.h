@@ -9,18 +9,36 @@
 #include <string>
 
 #include "passes/frame_renderer.h"
+#include "scene/flat_scene.h"
 
 namespace nightcity {
 
-// The median over the hazy pixels of a small frame of the error that the field itself estimates
-// (docs/accuracy.md), relative, and 1 where the haze is black. None where no pixel sees haze. The
-// scene's field must be synced, and some of its windows lit.
-std::optional<double> estimateFieldError(gpu::Device& device, gpu::Commands& commands,
-                                         const GpuScene& scene, const CameraFrame& camera,
-                                         const RenderProduct& product,
-                                         const RenderSettings& settings);
-
 // A sentence for the user where the estimate is far above what the tolerance lets it be; else none.
 std::optional<std::string> fieldAlarm(double estimate, double tolerance, std::uint64_t bricks);
+
+// The alarm of what is rendered now. It takes a small frame with the field's own estimate of its
+// error, once a camera, tolerance and model: a track of a camera is looked along from its first frame
+// with a lit window.
+class FieldAlarm {
+public:
+    void sceneChanged();
+    // `flat` is what `scene` was synced with, its field included where the settings are of it.
+    void update(gpu::Device& device, gpu::Commands& commands, const GpuScene& scene,
+                const FlatScene& flat, const RenderProduct& product,
+                const RenderSettings& settings);
+    const std::optional<std::string>& note() const { return note_; }
+
+private:
+    struct View {
+        std::string camera;
+        double tolerance;
+        Model model;
+
+        bool operator==(const View&) const = default;
+    };
+
+    std::optional<View> estimated_;  // what the note is of
+    std::optional<std::string> note_;
+};
 
 }  // namespace nightcity

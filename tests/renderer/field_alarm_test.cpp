@@ -35,18 +35,26 @@ TEST(FieldAlarms, AreOfEstimatesFarAboveTheTolerance) {
     }
 }
 
+bool isHeardWith(const RenderProduct& product, const RenderSettings& settings) {
+    testDelegate().render(product, settings, {});
+    return saysTooCoarse(testDelegate().notes());
+}
+
 // Three cubic kilometres of haze behind the camera take all bricks but large ones: of the one around
-// the building, 2 km away, no node lies in the haze, which is not black for that.
+// the building, 2 km away, no node lies in the haze, which is not black for that. In a session that
+// goes on with the scene, what was said of one tolerance, method or camera is not said of another.
 TEST(FieldAlarms, AreHeardWhereBricksAreLarge) {
     SceneBuilder city = paperCity(1);
     city.addCamera("away", {-2000, 0, 200}, {0, 0, 15}, 2);
-    RenderProduct product = productOf("away", 48, 27);
+    city.addCamera("beside", {-13, -13, 10}, {0, 0, 12}, 60);
+    const RenderProduct away = productOf("away", 48, 27), beside = productOf("beside", 48, 27);
+    const RenderSettings settings = fieldSettings();
     const FlatScene small = city.load();
-    renderOnDevice(small, product, fieldSettings());
+    renderOnDevice(small, away, settings);
     EXPECT_FALSE(saysTooCoarse(testDelegate().notes()));
     city.addMediaBox({-6050, -2000, 0}, {-2050, 2000, 200}, 1e-5f, 0.9f);
     const FlatScene large = city.load();
-    const Frame frame = renderOnDevice(large, product, fieldSettings());
+    const Frame frame = renderOnDevice(large, away, settings);
     std::size_t hazy = 0, black = 0;
     for (std::size_t i = 0; i < frame.glow.size(); ++i) {
         const bool isHazy = frame.transmittance[i] < 0.999f;
@@ -56,6 +64,15 @@ TEST(FieldAlarms, AreHeardWhereBricksAreLarge) {
     EXPECT_GT(hazy, 100u);
     EXPECT_EQ(black, 0u);
     EXPECT_TRUE(saysTooCoarse(testDelegate().notes()));
+
+    RenderSettings gauss = settings, coarse = settings;
+    gauss.method = Method::gauss;
+    coarse.tolerance = 0.9;
+    EXPECT_FALSE(isHeardWith(away, gauss));
+    EXPECT_FALSE(isHeardWith(away, coarse));
+    EXPECT_TRUE(isHeardWith(away, settings));
+    testDelegate().sync(large, "beside", beside.frame, settings, {.geometry = false});
+    EXPECT_FALSE(isHeardWith(beside, settings));
 }
 
 }  // namespace
