@@ -4,7 +4,7 @@
 // The media that the pixels of a cell see first, where its corners go by the same path to the same
 // box (MediumSeen): leaves, boxes and what lies on one side of a box are convex, so all rays between
 // do too.
-// Of the others a list. One thread a cell.
+// Lists the others as kMixedCells. One thread a cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -53,8 +53,7 @@ void main() {
     CellSpan span =
         cellSpan(ivec2(index % table.columnCells, index / table.columnCells), table);
     if (isMixed(index, span, table)) {
-        uint slot = 1u + atomicAdd(UintArray(table.mixedCells).at[0], 1u);
-        UintArray(table.mixedCells).at[slot] = index;
+        addToList(kMixedCells, index, table);
         return;
     }
     uint box = MediumSeenArray(table.mediaSeen).at[index].box;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first media box on each ray of the cells that media_cells.comp lists. A few groups take
+// The first media box on each ray of the cells of kMixedCells. A few groups take
 // them all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -15,15 +15,11 @@ layout(local_size_x = kGroupSize) in;
 void main() {
     keepTables();
     GlowTable table = glowTable;
-    if (table.rows == 0u) {
-        return;
-    }
     const uint kPixels = kGlowCell * kGlowCell;
-    uint count = kPixels * UintArray(table.mixedCells).at[0];
+    uint count = kPixels * cellCount(kMixedCells, table);
     for (uint k = firstOfList(); k < count; k += kListGroups * kGroupSize) {
-        uint cell = UintArray(table.mixedCells).at[1u + k / kPixels];
-        ivec2 first = ivec2(cell % table.columnCells, cell / table.columnCells) * int(kGlowCell);
-        ivec2 at = first + ivec2(k % kGlowCell, k / kGlowCell % kGlowCell);
+        ivec2 cell = cellAt(cellOfList(kMixedCells, k / kPixels, table), table);
+        ivec2 at = cell * int(kGlowCell) + ivec2(k % kGlowCell, k / kGlowCell % kGlowCell);
         if (at.x < int(frameTable.width) && at.y < int(table.rows)) {
             uint pixel = pixelIndex(at);
             Ray ray = cameraRay(pixelOf(push.firstPixel + pixel), push.sampleIndex);

@@ -25,7 +25,7 @@ static_assert(sizeof(GlowSample) == 16);
 static_assert(sizeof(GlowTile) == 12);
 static_assert(sizeof(GlowLedger) == 8);
 static_assert(sizeof(MediumSeen) == 8);
-static_assert(sizeof(GlowTable) == 11 * 8 + 44);
+static_assert(sizeof(GlowTable) == 10 * 8 + 44);
 
 std::uint32_t cellsFor(std::uint32_t pixels) {
     return (pixels + kGlowCell - 1) / kGlowCell;
@@ -111,15 +111,12 @@ void GlowPasses::reserve(std::uint32_t width, std::uint32_t rows) {
     if (ledgerBytes_ != 0) {
         contents_.ledger = make(ledger_, "glow ledger", std::uint64_t{pixels} * ledgerBytes_);
     }
-    // A cell has at least one pixel.
-    contents_.cells = make(cells_, "glow cells", std::uint64_t{pixels} * 4);
-    contents_.traced = make(traced_, "glow cells traced", std::uint64_t{pixels} * 4);
-    if (seesMedia_) {
-        contents_.mediaSeen =
-            make(mediaSeen_, "media seen", std::uint64_t{pixels} * sizeof(MediumSeen));
-        contents_.mixedCells = make(mixedCells_, "mixed cells", (std::uint64_t{pixels} + 1) * 4);
-    }
     const std::uint64_t cells = std::uint64_t{tiles} * kTileCells * kTileCells;  // or fewer
+    contents_.cells = make(cells_, "glow cells", cells * 4);
+    contents_.traced = make(traced_, "glow cells traced", cells * 4);
+    if (seesMedia_) {
+        contents_.mediaSeen = make(mediaSeen_, "media seen", cells * sizeof(MediumSeen));
+    }
     contents_.lists = make(lists_, "lists of cells", kCellLists * (cells + 1) * 4);
     contents_.tiles = make(tileTable_, "glow tiles", std::uint64_t{tiles} * sizeof(GlowTile));
     contents_.tileRays = make(tileRays_, "glow rays", std::uint64_t{tiles} * kTilePixels * 4);
@@ -164,6 +161,10 @@ void GlowPasses::recordWarmUp(VkCommandBuffer commands, const PushConstants& pus
     for (const gpu::ComputePipeline* pipeline : {&plan_, &tiles_, &trace_}) {
         pipeline->dispatch(commands, &push, 1);
     }
+    if (seesMedia_) {
+        mediaCorners_.dispatch(commands, &push, 1);
+        mediaCells_.dispatch(commands, &push, 1);
+    }
     for (const gpu::ComputePipeline& pipeline : refine_) {
         pipeline.dispatch(commands, &push, 1);
     }
@@ -174,7 +175,7 @@ void GlowPasses::recordWarmUp(VkCommandBuffer commands, const PushConstants& pus
 
 void GlowPasses::recordMedia(VkCommandBuffer commands, const PushConstants& push,
                              const Timed& timed) const {
-    vkCmdFillBuffer(commands, mixedCells_.get(), 0, 4, 0);
+    vkCmdFillBuffer(commands, lists_.get(), kMixedCells * 4, 4, 0);
     timed("media ids", [&] {
         mediaCorners_.dispatch(commands, &push, cellGroups());
         gpu::computeBarrier(commands);

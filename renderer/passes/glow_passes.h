@@ -54,7 +54,7 @@ public:
     using Timed = std::function<void(const char*, const std::function<void()>&)>;
     void record(VkCommandBuffer commands, PushConstants push, const Timed& timed) const;
     // With kAovMediaId, before that: the ids of the media that rays meet first, but those of the
-    // cells that it lists.
+    // cells that it lists as kMixedCells.
     void recordMedia(VkCommandBuffer commands, const PushConstants& push, const Timed& timed) const;
 
     // After the passes of a band have run: whether its lists of panes did not fit. There is
@@ -77,7 +77,7 @@ private:
     std::array<gpu::ComputePipeline, kCompositeLists.size()> composite_;
     gpu::ComputePipeline mediaCorners_, mediaCells_;
     gpu::Buffer samples_, ledger_, cells_, traced_, lists_, tileTable_, tileRays_, tilePanes_;
-    gpu::Buffer mediaSeen_, mixedCells_;
+    gpu::Buffer mediaSeen_;
     gpu::ReadableBuffer paneCounter_;
     gpu::Buffer table_;
     std::uint32_t pixels_ = 0, tileCount_ = 0;  // that there is room for

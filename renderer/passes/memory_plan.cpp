@@ -92,7 +92,7 @@ std::uint64_t frameBytes(const gpu::Device& device, const RenderProduct& product
     std::uint64_t ray = sizeof(SurfaceRecord) + sizeof(RayProgress);
     if (settings.method == Method::field) {
         images += 2 * sizeof(float);
-        ray += sizeof(GlowSample) + sizeof(GlowLedger) + 16;
+        ray += sizeof(GlowSample) + sizeof(GlowLedger) + 8;  // of cells and tiles, a pixel
     } else if (settings.method == Method::path) {
         images += sizeof(vec3);
         ray += sizeof(PathSums) + sizeof(NearLights) + sizeof(vec3);

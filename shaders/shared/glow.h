@@ -33,12 +33,14 @@ NIGHTCITY_CONST uint kTraceGroup = 32u;  // threads of glow_trace.comp, a group 
 NIGHTCITY_CONST uint kListGroups = 64u;  // of passes that take a list of cells; even
 NIGHTCITY_CONST uint kTileGroup = 64u;  // threads of glow_tiles.comp, one a tile
 
-// Lists of cells whose pixels are kept. The order within one is chance, and changes nothing.
+// Lists of cells, but the last of those whose pixels are kept. The order within one is chance, and
+// changes nothing.
 NIGHTCITY_CONST uint kClearCells = 0u;   // that see one face, without haze before the corners
 NIGHTCITY_CONST uint kHazyCells = 1u;    // that see one face, others
 NIGHTCITY_CONST uint kSmoothCells = 2u;  // those of them that are interpolated by the corners
 NIGHTCITY_CONST uint kOtherCells = 3u;   // with more rays of their own
-NIGHTCITY_CONST uint kCellLists = 4u;
+NIGHTCITY_CONST uint kMixedCells = 4u;   // that may see several media first
+NIGHTCITY_CONST uint kCellLists = 5u;
 
 // What glow_refine.comp does: the last in the third round, the others in the second.
 NIGHTCITY_CONST uint kRefineEdges = 0u;     // more rays for quarters that see several faces
@@ -106,8 +108,7 @@ struct GlowTable {
     uvec2 tileRays;     // uint, kTilePixels a tile: pixels of the band
     uvec2 tilePanes;    // uint, those of one tile after another: into NearTable.panes
     uvec2 mediaSeen;    // MediumSeen a cell: along the ray of its first pixel; 0 where no ids of
-                        // media are asked for, as the next
-    uvec2 mixedCells;   // uint: how many cells may see several media first, then these
+                        // media are asked for
     uvec2 paneCounter;  // uint: panes of all tiles; may be more than there is room for
     uint paneCapacity;
     uint rows;          // pixels, of the band
