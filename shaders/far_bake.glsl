@@ -57,7 +57,8 @@ float splitRadius(FarFieldTable field, FarBrick brick) {
     return splitRadius(field.nearRadius, brickSpacing(field, brick), isBlurred(field, brick.scale));
 }
 
-// Whether a node lies in a solid or outside the haze (far_sides.comp).
+// Whether a node is of no use to the haze around it: in a solid or below the ground, and in bricks
+// that are not blurred outside the haze too (far_sides.comp).
 bool isSolid(uint brick, uint node) {
     uint word = UintArray(bakeTable.sides).at[brick * kBrickSideWords + (node >> 5)];
     return (word >> (node & 31u) & 1u) != 0u;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which nodes of a brick lie in haze and which do not: outside all media, in a solid (where the
-// first face above is seen from behind), or below the ground. Above the haze windows may be
-// seen over the roofs that the haze below never sees.
+// Which nodes of a brick are of use to the haze around them and which are not: those in a solid
+// (where the first face above is seen from behind) or below the ground, and, unless the brick is
+// blurred, those outside all media. Above the haze windows may be seen over the roofs that the haze
+// below never sees.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
