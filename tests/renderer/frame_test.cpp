@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "device_frame.h"
 #include "errors.h"

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <numbers>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/content_hash.h"
 #include "scene/record_layout.h"
 #include "scene/scene_file.h"
