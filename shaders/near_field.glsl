@@ -5,6 +5,9 @@
 #ifndef NIGHTCITY_SHADERS_NEAR_FIELD_GLSL
 #define NIGHTCITY_SHADERS_NEAR_FIELD_GLSL
 
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
 #include "glow_tile.glsl"
 #include "transport/near_window.h"
 
@@ -40,11 +43,78 @@ struct NearPiece {
     float tolerance;   // relative, as in nodesFor
 };
 
-// Part [at, end) of the tiles' lists of panes.
+// Of the tiles' lists of panes up to kPanesAtOnce that follow each other, those that some ray of the
+// subgroup may be near.
+const uint kPanesAtOnce = 128u;
 struct PaneList {
     uvec2 panes;  // uint into NearTable.panes
-    uint at, end;
+    uint first;
+    uvec4 mayMeet;  // a bit a pane
 };
+
+// All pieces of a subgroup: within `spread` of a line.
+struct PieceBundle {
+    vec3 start, direction;
+    float spread, first, last;  // m
+};
+
+PieceBundle bundleOfSubgroup(NearPiece piece) {
+    PieceBundle bundle;
+    bundle.start = subgroupBroadcastFirst(piece.ray.origin);
+    bundle.direction = subgroupBroadcastFirst(piece.ray.direction);
+    vec3 begin = piece.ray.origin - bundle.start;
+    vec3 end = begin + piece.span * piece.ray.direction;
+    float alongBegin = dot(begin, bundle.direction);
+    float alongEnd = dot(end, bundle.direction);
+    bundle.first = subgroupMin(min(alongBegin, alongEnd));
+    bundle.last = subgroupMax(max(alongBegin, alongEnd));
+    bundle.spread = subgroupMax(max(length(begin - alongBegin * bundle.direction),
+                                    length(end - alongEnd * bundle.direction)));
+    return bundle;
+}
+
+bool mayBeNear(PieceBundle bundle, vec3 centre, float radius) {
+    vec3 away = centre - bundle.start;
+    float along = dot(away, bundle.direction);
+    vec3 across = away - along * bundle.direction;
+    float reach = radius + bundle.spread + kBundleSlack;
+    return dot(across, across) < reach * reach &&
+           along > bundle.first - reach && along < bundle.last + reach;
+}
+
+// The lanes share the work: each looks at every so-manieth pane, for all of them. What no lane looks
+// at, for it has nothing to integrate, counts as near.
+uvec4 panesNear(PieceBundle bundle, float radius, uvec2 panes, uint first, uint end) {
+    uint lanes = min(gl_SubgroupSize, 32u);
+    bool isLooking = gl_SubgroupInvocationID < 32u;
+    uint others = ~subgroupBallot(isLooking).x;
+    uint all = lanes == 32u ? ~0u : (1u << lanes) - 1u;
+    uvec4 near = uvec4(0u);
+    for (uint word = 0u; word < 4u; ++word) {
+        uint bits = 0u;
+        for (uint k = 0u; k < 32u && first + 32u * word + k < end; k += lanes) {
+            uint mine = first + 32u * word + k + gl_SubgroupInvocationID;
+            uint index = UintArray(panes).at[min(mine, end - 1u)];
+            vec3 centre = NearPaneArray(nearTable.panes).at[index].centre;
+            bool isNear = isLooking && mayBeNear(bundle, centre, radius);
+            bits |= ((subgroupBallot(isNear).x | others) & all) << k;
+        }
+        uint left = end - min(first + 32u * word, end);
+        near[word] = bits & (left < 32u ? (1u << left) - 1u : ~0u);
+    }
+    return near;
+}
+
+// Takes the first; the list has one.
+uint takePane(inout PaneList list) {
+    uint word = list.mayMeet.x != 0u   ? 0u
+                : list.mayMeet.y != 0u ? 1u
+                : list.mayMeet.z != 0u ? 2u
+                                       : 3u;
+    uint bits = list.mayMeet[word];
+    list.mayMeet[word] = bits & (bits - 1u);
+    return list.first + 32u * word + uint(findLSB(bits));
+}
 
 // Goes on to the next pane that may be near the piece: within the near radius, or where
 // isCloseBy, within closeBy. kNone: no more. A loop of its own, so that the threads of a
@@ -52,8 +122,8 @@ struct PaneList {
 uint nextPaneBy(inout PaneList list, NearPiece piece, bool isCloseBy) {
     NearPaneArray panes = NearPaneArray(nearTable.panes);
     uint found = kNone;
-    while (list.at < list.end && found == kNone) {
-        uint index = UintArray(list.panes).at[list.at];
+    while (list.mayMeet != uvec4(0u) && found == kNone) {
+        uint index = UintArray(list.panes).at[takePane(list)];
         vec3 away = panes.at[index].centre - piece.ray.origin;
         float reach = isCloseBy ? panes.at[index].closeBy : piece.radius;
         float along = dot(away, piece.ray.direction);
@@ -61,7 +131,6 @@ uint nextPaneBy(inout PaneList list, NearPiece piece, bool isCloseBy) {
         bool isNear = dot(across, across) < reach * reach && along > -reach &&
                       along < piece.span + reach;
         found = isNear ? index : kNone;
-        ++list.at;
     }
     return found;
 }
@@ -99,15 +168,14 @@ void addMeeting(NearMeeting met, float light, NearPiece piece, inout NearSum sum
     }
 }
 
-// Of the panes whose integrals are not taken in pieces. Returns the part of the list from the
-// first to the last of the others, nothing where there are none.
-PaneList addWholePanes(PaneList list, NearPiece piece, inout NearSum sum) {
-    PaneList others = PaneList(list.panes, list.end, list.at);
+// Of the panes whose integrals are not taken in pieces. Returns whether there are others.
+bool addWholePanes(PaneList list, NearPiece piece, inout NearSum sum) {
+    bool others = false;
     for (uint index = nextPaneBy(list, piece, false); index != kNone;
          index = nextPaneBy(list, piece, false)) {
         NearMeeting met = meetPane(index, piece);
         if (met.isNear && met.isCut) {
-            others = PaneList(list.panes, min(others.at, list.at - 1u), list.at);
+            others = true;
         } else if (met.isNear) {
             addMeeting(met, nearBeside(met.pass, met.frame, piece.radius, piece.extinction,
                                        piece.tolerance, kThinHaze), piece, sum);
@@ -149,13 +217,20 @@ void addPoints(PaneList list, NearPiece piece, inout NearSum sum) {
 // Of all panes around a ray of the tile.
 NearSum nearGlow(NearPiece piece, uint tile, GlowTable table) {
     GlowTile found = GlowTileArray(table.tiles).at[tile];
-    PaneList list = PaneList(table.tilePanes, found.firstPane, found.firstPane + found.paneCount);
+    PieceBundle bundle = bundleOfSubgroup(piece);
     NearSum sum = NearSum(vec3(0.0), 0.0);
-    if (kNearEmitter == kEmitterPane) {
-        addCutPanes(addWholePanes(list, piece, sum), piece, sum);
-    }
-    if (kPoints) {
-        addPoints(list, piece, sum);
+    uint end = found.firstPane + found.paneCount;
+    for (uint first = found.firstPane; first < end; first += kPanesAtOnce) {
+        uvec4 mayMeet = panesNear(bundle, piece.radius, table.tilePanes, first, end);
+        PaneList list = PaneList(table.tilePanes, first, mayMeet);
+        if (kNearEmitter == kEmitterPane) {
+            if (addWholePanes(list, piece, sum)) {
+                addCutPanes(list, piece, sum);
+            }
+        }
+        if (kPoints) {
+            addPoints(list, piece, sum);
+        }
     }
     return sum;
 }
