@@ -31,6 +31,8 @@ struct Column {
     float halfSide; // m, of the brick
     bool isCoarse;  // nodes are too far apart for the shape of a pane
     float exactHaze;  // m, of windows nearer than so each node asks for the haze on its way
+    vec2 beside;      // of its foot, where it looks over the roofs from, m
+    uint turn;        // 0 to 3, other than that of columns beside it
     vec2 across;      // of the brick, from (0, 0) to (1, 1)
     vec3 acrossX, acrossY;  // weights of the three places of a layer along each axis
     BakedShare baked;

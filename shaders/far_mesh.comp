@@ -3,8 +3,8 @@
 //
 // What lies on the ways from the lights of a batch's entries to their brick: from which points of
 // its mesh (far_mesh.glsl) a light is seen, one way each, from another part of the light than its
-// neighbours', or from which of its corners; and how much haze is between. All of an
-// entry's ways are asked by one thread or few, so that no thread waits for others' lights.
+// neighbours', or from which of its corners; which places of a light large bricks look at over
+// the roofs; and how much haze is between. All of an entry's ways are asked by one thread or few, so that no thread waits for others' lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,10 +17,6 @@ layout(local_size_x = kGroupSize) in;
 
 const float kShortestWay = 1e-6;  // m
 
-shared uint solidPoints[kMeshSide];  // of the mesh, a word a layer: those in no haze
-shared uint askedPoints[kMeshSide];  // the others see what one of these does
-shared uvec2 askedRows[kMeshSide * kMeshSide];  // y and z, those with any asked point
-shared uint askedRowCount;
 shared vec3 wayEnds[kWaySide * kWaySide * kWaySide];  // m, from the brick's centre
 
 uint firstEntry() {
@@ -37,98 +33,19 @@ bool sees(vec3 place, uvec3 point, FarLight light, uint index, FarWindow window,
     return !isBelow && !isHiddenByAny(part, place, origin);
 }
 
-bool isIn(uint word, uvec3 point) {
-    return (word >> point.y * kMeshSide + point.x & 1u) != 0u;
-}
-
-// Of the asked points about another, the one of a turn of 0 to 7: even along each axis.
-uvec3 evenPoint(uvec3 point, uint turn) {
-    uvec3 odd = point & 1u;
-    return point - odd + 2u * odd * (uvec3(turn, turn >> 1, turn >> 2) & 1u);
-}
-
-// The turn of the first such point in the air, from one on; 8 where none is.
-uint turnInTheAir(uvec3 point, uint first) {
-    for (uint k = 0u; k < 8u; ++k) {
-        uvec3 even = evenPoint(point, first ^ k);
-        if (!isIn(solidPoints[even.z], even)) {
-            return first ^ k;
-        }
-    }
-    return 8u;
-}
-
-// Of small bricks all points, of larger ones every other along each axis, and those in the air that
-// have none of these in the air about them.
-void chooseAsked(FarBrick brick) {
-    uint thread = gl_LocalInvocationIndex;
-    if (thread < kMeshSide) {
-        uint solid = 0u;
-        for (uint i = 0u; i < kMeshSide * kMeshSide; ++i) {
-            solid |= isSolidPoint(i, thread) ? 1u << i : 0u;
-        }
-        solidPoints[thread] = solid;
-    }
-    barrier();
-    if (thread < kMeshSide) {
-        uint asked = 0u;
-        for (uint i = 0u; i < kMeshSide * kMeshSide; ++i) {
-            uvec3 point = uvec3(i % kMeshSide, i / kMeshSide, thread);
-            bool isAsked = brick.scale == 0u || all(equal(point & 1u, uvec3(0u))) ||
-                           (!isIn(solidPoints[thread], point) && turnInTheAir(point, 0u) == 8u);
-            asked |= isAsked ? 1u << i : 0u;
-        }
-        askedPoints[thread] = asked;
-    }
-    barrier();
-    if (thread == 0u) {
-        askedRowCount = 0u;
-        for (uint row = 0u; row < kMeshSide * kMeshSide; ++row) {
-            uvec2 at = uvec2(row % kMeshSide, row / kMeshSide);
-            if ((askedPoints[at.y] >> at.x * kMeshSide & (1u << kMeshSide) - 1u) != 0u) {
-                askedRows[askedRowCount] = at;
-                ++askedRowCount;
-            }
-        }
-    }
-    barrier();
-}
-
-// Of the asked points of a row along x: threads side by side walk much the same ways.
+// Of a row of points along x: threads side by side walk much the same ways.
 uint rowSees(uint entry, uvec2 row, FarBrick brick, float side, vec3 origin) {
-    uint stride = brick.scale == 0u ? 1u : 2u;
     uint index = FarEntryArray(bakeTable.entries).at[entry].light;
     FarLight light = FarLightArray(bakeTable.lights).at[index];
     FarWindow window = farWindow(entry, origin);
     uint word = 0u;
     for (uint i = 0u; i < kMeshSide; ++i) {
         uvec3 point = uvec3(i, row);
-        if (!isIn(askedPoints[row.y], point)) {
-            continue;
-        }
         vec3 place = (vec3(point) / float(kMeshSide - 1u) - 0.5) * side;
         // Neighbouring bricks agree on what they share.
-        uvec3 number = ((brick.cell >> brick.scale) * (kMeshSide - 1u) + point) / stride;
+        uvec3 number = brick.cell * (kMeshSide - 1u) + point;
         place = askedPlace(place, light, window.centre, side / float(kBrickSteps));
         word |= sees(place, number, light, index, window, origin) ? 1u << i : 0u;
-    }
-    return word;
-}
-
-// What is between asked points sees what one of those in the air about it does, now this one, now
-// that.
-uint filledWord(uint entry, uint layer) {
-    uint word = 0u;
-    uint turn = (FarEntryArray(bakeTable.entries).at[entry].light * 2654435761u) >> 16;
-    for (uint i = 0u; i < kMeshSide * kMeshSide; ++i) {
-        uvec3 point = uvec3(i % kMeshSide, i / kMeshSide, layer);
-        uint first = (turn >> (i & 7u) & 1u) | (turn >> (i * 3u + 1u & 7u) & 1u) << 1 |
-                     (turn >> (layer + 8u) & 1u) << 2;
-        uint inAir = turnInTheAir(point, first);
-        uvec3 other = evenPoint(point, inAir < 8u ? inAir : first);
-        uvec3 asked = isIn(askedPoints[layer], point) ? point : other;
-        uint seen = FarEntryArray(bakeTable.entries).at[entry].face[asked.z];
-        word |= isIn(seen, asked) ? 1u << i : 0u;
     }
     return word;
 }
@@ -177,33 +94,42 @@ void findHaze(uint entry, uint layer, FarBrick brick, vec3 origin, FarFieldTable
 
 void findMesh(uint entries, FarBrick brick, vec3 origin, FarFieldTable field) {
     float side = brickSide(field, brick);
-    uint rows = askedRowCount;
-    for (uint i = gl_LocalInvocationIndex; i < entries * rows; i += kGroupSize) {
-        uint entry = firstEntry() + i / rows;
+    for (uint i = gl_LocalInvocationIndex; i < entries * kMeshSide * kMeshSide; i += kGroupSize) {
+        uint entry = firstEntry() + i / (kMeshSide * kMeshSide);
         if (FarEntryArray(bakeTable.entries).at[entry].faceCount == kMesh) {
-            uvec2 row = askedRows[i % rows];
+            uvec2 row = uvec2(i, i / kMeshSide) % kMeshSide;
             uint bits = rowSees(entry, row, brick, side, origin);
             atomicOr(FarEntryArray(bakeTable.entries).at[entry].face[row.y],
                      bits << row.x * kMeshSide);
         }
     }
-    barrier();
-    for (uint odd = 0u; brick.scale > 0u && odd < 2u; ++odd) {  // odd layers read even ones as asked
-        for (uint i = gl_LocalInvocationIndex; i < entries * kMeshSide; i += kGroupSize) {
-            uint entry = firstEntry() + i / kMeshSide;
-            uint layer = i % kMeshSide;
-            bool isMine = (layer & 1u) == 1u - odd &&
-                          FarEntryArray(bakeTable.entries).at[entry].faceCount == kMesh;
-            if (isMine) {
-                FarEntryArray(bakeTable.entries).at[entry].face[layer] = filledWord(entry, layer);
-            }
-        }
-        barrier();
-    }
+}
+
+void findAllHaze(uint entries, FarBrick brick, vec3 origin, FarFieldTable field) {
     for (uint i = gl_LocalInvocationIndex; i < entries * kWaySide; i += kGroupSize) {
         uint entry = firstEntry() + i / kWaySide;
         if (FarEntryArray(bakeTable.entries).at[entry].extinction < 0.0) {
             findHaze(entry, i % kWaySide, brick, origin, field);
+        }
+    }
+}
+
+// Of each light, windows or their points that stand for it, a cell of the map of heights before their
+// walls.
+void findRoofPlaces(uint entries, vec3 origin) {
+    for (uint i = gl_LocalInvocationIndex; i < entries * kRoofPlaces; i += kGroupSize) {
+        uint entry = firstEntry() + i / kRoofPlaces;
+        uint number = i % kRoofPlaces;
+        uint index = FarEntryArray(bakeTable.entries).at[entry].light;
+        FarLight light = FarLightArray(bakeTable.lights).at[index];
+        vec3 place = light.second == 0u ? panePoint(farWindow(entry, origin), number)
+                                        : partOf(index, number * 3u) - origin;
+        if (kFarEmitter != kEmitterIsotropic) {
+            place += bakeTable.heightCell * light.axis;
+        }
+        for (uint axis = 0u; axis < 3u; ++axis) {
+            FarEntryArray(bakeTable.entries).at[entry].face[3u * number + axis] =
+                floatBitsToUint(place[axis]);
         }
     }
 }
@@ -235,8 +161,13 @@ void main() {
         vec3 place = (vec3(number) / float(kWaySide - 1u) - 0.5) * side;
         wayEnds[thread] = inHaze(place, origin, brick, field);
     }
-    chooseAsked(brick);
+    barrier();
     uvec2 counts = entryCounts();
-    findMesh(counts.x, brick, origin, field);
+    if (brick.scale == 0u) {
+        findMesh(counts.x, brick, origin, field);
+    } else if (kFarVisibility != 0u) {
+        findRoofPlaces(counts.x, origin);
+    }
+    findAllHaze(counts.x, brick, origin, field);
     findClusters(counts, brick, origin, field);
 }

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sight of lights with more faces before them than an entry lists, or from a brick too large
-// for lists: known at every other node of a brick along each axis, and between these the mean of
+// Sight of lights with more faces before them than an entry lists: known at every other node of a brick along each axis, and between these the mean of
 // those around that lie in the air.
 #ifndef NIGHTCITY_SHADERS_FAR_MESH_GLSL
 #define NIGHTCITY_SHADERS_FAR_MESH_GLSL

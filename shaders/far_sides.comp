@@ -60,13 +60,13 @@ bool isInSolid(vec3 place) {
 }
 
 // Whether a node is of no use to the haze around it. One on a wall belongs to the air before it,
-// one on a roof with no haze above it to nothing. Between the nodes of a blurred brick there may be
+// one on a roof with no haze above it to nothing. Between the nodes of a large brick there may be
 // whole streets of haze: there clear air speaks for it too.
-bool isOutside(vec3 place, uint brickSide, bool isBlurred, FarFieldTable field) {
+bool isOutside(vec3 place, uint brickSide, bool isLarge, FarFieldTable field) {
     for (uint i = 0u; i < 8u; ++i) {
         vec3 near = place + 2.0 * kOnFace * (vec3(uvec3(i, i >> 1, i >> 2) & 1u) * 2.0 - 1.0);
         bool inSolid = brickSide == kUndecided ? isInSolid(near) : brickSide == 1u;
-        if (!inSolid && (isBlurred || isInHaze(near, field))) {
+        if (!inSolid && (isLarge || isInHaze(near, field))) {
             return false;
         }
     }
@@ -104,7 +104,7 @@ void main() {
     float spacing = brickSpacing(field, brick);
     for (uint node = thread; node < kBrickNodes; node += kGroupSize) {
         vec3 place = corner + spacing * vec3(nodePlace(node));
-        if (isOutside(place, wholeBrick, isBlurred(field, brick.scale), field)) {
+        if (isOutside(place, wholeBrick, brick.scale > 0u, field)) {
             atomicOr(solid[node >> 5], 1u << (node & 31u));
         }
     }

@@ -14,7 +14,6 @@
 
 layout(local_size_x = kGroupSize) in;
 
-const float kCornerShare = 0.4;
 const uint kLargestHiddenFrom = 1u; // scale of bricks that one face often hides from a light
 
 // Lights still to be looked at. A round takes the last kGroupSize of them and puts
@@ -89,8 +88,7 @@ uint howSeen(FarLight light, vec3 way, vec3 brickHalf, FarBrick brick) {
     float reach = length(light.reach);
     float spread = spreadAt(gap, brick);
     bool isFar = reach <= spread * gap && gap >= splitRadius(bakedField, brick) + reach;
-    float cornerShare = brick.scale == 0u ? spread : max(spread, kCornerShare);
-    if (isFar && length(brickHalf) <= cornerShare * gap) {
+    if (brick.scale == 0u && isFar && length(brickHalf) <= spread * gap) {
         return kSeenFromCorners;
     }
     bool isSmall = brick.scale >= kJoinedScale && bakeTable.spread > 0.0 &&
@@ -120,7 +118,7 @@ bool findSight(FarLight light, uint how, vec3 brickCentre, vec3 brickHalf, FarBr
     if (brick.scale == 0u) {
         return findFaces(light, light.centre - brickCentre, brickCentre, brickHalf, entry);
     }
-    entry.faceCount = kFarVisibility == 0u ? 0u : kMesh;
+    entry.faceCount = kFarVisibility == 0u ? 0u : kRoofs;
     return true;
 }
 

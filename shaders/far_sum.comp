@@ -11,18 +11,48 @@
 #define NIGHTCITY_KEEP_TABLES
 #include "far_column.glsl"
 #include "far_mesh.glsl"
+#include "far_roofs.glsl"
 
 layout(local_size_x = kColumnThreads) in;
 
 layout(constant_id = NIGHTCITY_CONSTANT_FAR_UPDATE) const uint kUpdate = 0u;
 
+// Whether the part has entries of large bricks, which look over the roofs.
+bool mayLookOverRoofs() {
+    return kFarVisibility != 0u && (kPart == kSumCoarse || kPart == kSumFront);
+}
+
 const uint kNodesALayer = kBrickSide * kBrickSide;
+
+// Columns of which some node is read: those in a solid take their light from the air beside them.
+shared uint columns[kNodesALayer];
+shared uint columnCount;
+
+bool isInTheAir(uint column) {
+    bool isThere = false;
+    for (uint i = 0u; i < kBrickSide; ++i) {
+        isThere = isThere || !isSolid(groupBrick(), column + i * kNodesALayer);
+    }
+    return isThere;
+}
+
+void findColumns() {
+    if (gl_LocalInvocationIndex == 0u) {
+        columnCount = 0u;
+    }
+    barrier();
+    if (gl_LocalInvocationIndex < kNodesALayer && isInTheAir(gl_LocalInvocationIndex)) {
+        columns[atomicAdd(columnCount, 1u)] = gl_LocalInvocationIndex;
+    }
+    barrier();
+}
 
 // What one lane reads of an entry.
 struct ReadEntry {
     FarWindow window;
     uint entry;
     uint mesh[kMeshSide];
+    vec3 places[kRoofPlaces];  // m, from the brick's centre: as FarEntry has them
     vec3 emission, baked;  // in units of the brick
 };
 
@@ -40,6 +70,12 @@ ReadEntry readEntry(uint entry, vec3 origin, float perUnit) {
     [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
         read.mesh[layer] = FarEntryArray(bakeTable.entries).at[entry].face[layer];
     }
+    [[unroll]] for (uint i = 0u; kPart != kSumFine && i < kRoofPlaces; ++i) {
+        [[unroll]] for (uint axis = 0u; axis < 3u; ++axis) {
+            read.places[i][axis] =
+                uintBitsToFloat(FarEntryArray(bakeTable.entries).at[entry].face[3u * i + axis]);
+        }
+    }
     uint light = FarEntryArray(bakeTable.entries).at[entry].light;
     read.emission = Vec3Array(bakeTable.emission).at[light] * perUnit;
     read.baked = kUpdate == 0u ? vec3(0.0) : Vec3Array(bakeTable.baked).at[light] * perUnit;
@@ -53,13 +89,20 @@ ReadEntry entryOfLane(ReadEntry mine, uint lane) {
     [[unroll]] for (uint layer = 0u; layer < kMeshSide; ++layer) {
         read.mesh[layer] = subgroupBroadcast(mine.mesh[layer], lane);
     }
+    [[unroll]] for (uint i = 0u; kPart != kSumFine && i < kRoofPlaces; ++i) {
+        read.places[i] = subgroupBroadcast(mine.places[i], lane);
+    }
     read.emission = subgroupBroadcast(mine.emission, lane);
     read.baked = subgroupBroadcast(mine.baked, lane);
     return read;
 }
 
 bool isMesh(ReadEntry read) {
-    return read.window.faceCount == kMesh;
+    return kPart != kSumCoarse && read.window.faceCount == kMesh;
+}
+
+bool isOverRoofs(ReadEntry read) {
+    return mayLookOverRoofs() && read.window.faceCount == kRoofs;
 }
 
 // Of the pane's four points.
@@ -69,7 +112,7 @@ bvec4 arePointsHidden(FarWindow window, vec3 origin) {
 
 // Whether sight is interpolated, or nothing stands between.
 bool isSightKnown(ReadEntry read, vec3 origin) {
-    return kPart == kSumClusters || kPart == kSumCoarse || isMesh(read) ||
+    return kPart == kSumClusters || kPart == kSumCoarse || isMesh(read) || isOverRoofs(read) ||
            (read.window.faceCount == 0u && !any(arePointsHidden(read.window, origin)));
 }
 
@@ -77,6 +120,9 @@ bool isSightKnown(ReadEntry read, vec3 origin) {
 bool isSeen(ReadEntry read, vec3 origin) {
     if (all(arePointsHidden(read.window, origin))) {
         return false;
+    }
+    if (kPart == kSumCoarse || isOverRoofs(read)) {
+        return true;
     }
     uint seen = read.mesh[0];  // of a cluster its corners
     [[unroll]] for (uint layer = 1u; layer < kMeshSide && kPart != kSumClusters; ++layer) {
@@ -86,10 +132,20 @@ bool isSeen(ReadEntry read, vec3 origin) {
 }
 
 // Of a light whose sight is known, from the nodes of a column.
-float[kColumnNodes] knownShares(ReadEntry read, MeshColumn mesh, vec2 across) {
+float[kColumnNodes] knownShares(ReadEntry read, MeshColumn mesh, Column column, vec3 origin) {
     float seen[kColumnNodes];
+    if (isOverRoofs(read)) {
+        uint turn = column.turn;
+        vec3 from = turn < 2u ? (turn == 0u ? read.places[0] : read.places[1])
+                              : (turn == 2u ? read.places[2] : read.places[3]);
+        float lowest = lowestSeen(from, column.beside, column, origin);
+        [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
+            seen[i] = clamp(float(i) - lowest + 0.5, 0.0, 1.0);
+        }
+        return seen;
+    }
     if (kPart == kSumClusters) {
-        vec2 ends = seenFromCorners(read.window.corners, across);
+        vec2 ends = seenFromCorners(read.window.corners, column.across);
         [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
             seen[i] = mix(ends.x, ends.y, float(i) / float(kBrickSteps));
         }
@@ -144,6 +200,8 @@ Column columnOf(uint thread, FarBrick brick, FarFieldTable field, vec3 origin) {
     column.isCoarse = brick.scale > 0u;
     column.exactHaze = exactHaze(brick, brickSide(field, brick));
     column.across = 0.5 * column.foot.xy / column.halfSide + 0.5;
+    column.beside = column.foot.xy;
+    column.turn = (nodePlace(thread).x & 1u) | (nodePlace(thread).y & 1u) << 1;
     column.acrossX = betweenThree(column.across.x);
     column.acrossY = betweenThree(column.across.y);
     [[unroll]] for (uint i = 0u; kFarVisibility == 0u && i < kColumnNodes; ++i) {
@@ -160,16 +218,23 @@ void main() {
     if ((kPart == kSumFine && brick.scale > 0u) || (kPart == kSumCoarse && brick.scale == 0u)) {
         return;
     }
-    uint thread = min(gl_LocalInvocationIndex, kNodesALayer - 1u);
+    findColumns();
+    bool isThere = gl_LocalInvocationIndex < columnCount;
+    if (subgroupAll(!isThere)) {
+        return;
+    }
+    uint thread = columns[min(gl_LocalInvocationIndex, columnCount - 1u)];
     vec3 origin = brickCorner(field, brick) + 0.5 * brickSide(field, brick);
     Column column = columnOf(thread, brick, field, origin);
+    if (mayLookOverRoofs()) {
+        column.beside = besideWalls(column.foot.xy, column.foot.z + column.spacing, origin);
+    }
     MeshColumn mesh = meshColumn(thread);
     float perUnit = 1.0 / FloatArray(bakeTable.units).at[groupBrick()];
     uvec2 counts = entryCounts();
     uint begin = kPart == kSumClusters ? counts.x : 0u;
     uint end = kPart == kSumClusters ? counts.x + counts.y : counts.x;
     uint firstNode = groupBrick() * kBrickNodes + thread;
-    bool isThere = thread == gl_LocalInvocationIndex;
 
     uvec3 sum[kColumnNodes];
     [[unroll]] for (uint i = 0u; i < kColumnNodes; ++i) {
@@ -183,7 +248,7 @@ void main() {
         uint known = lanesWhere(isMine && quick && isSightKnown(mine, origin));
         while (known != 0u) {
             ReadEntry read = entryOfLane(mine, takeLane(known));
-            addQuick(read, knownShares(read, mesh, column.across), column, field, sum);
+            addQuick(read, knownShares(read, mesh, column, origin), column, field, sum);
         }
         if (kPart == kSumClusters || kPart == kSumCoarse) {
             continue;
@@ -200,8 +265,9 @@ void main() {
         while (exact != 0u) {
             ReadEntry read = entryOfLane(mine, takeLane(exact));
             Hidden nodes = hiddenFromColumn(read.entry, read.window, column, origin);
-            float seen[kColumnNodes] = isMesh(read) ? knownShares(read, mesh, column.across)
-                                                    : sharesBeyond(nodes);
+            float seen[kColumnNodes] = isSightKnown(read, origin)
+                                               ? knownShares(read, mesh, column, origin)
+                                               : sharesBeyond(nodes);
             if (isThere && !hidesAllNodes(nodes)) {
                 addExact(read, seen, column, firstNode, origin, field);
             }

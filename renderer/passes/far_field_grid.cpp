@@ -14,6 +14,7 @@
 #include "far_sum_spirv.h"
 #include "passes/box_nodes.h"
 #include "passes/far_media.h"
+#include "passes/height_map.h"
 #include "passes/pass_pipelines.h"
 #include "scene/convex_faces.h"
 
@@ -26,7 +27,7 @@ static_assert(sizeof(FarBrick) == 24);
 static_assert(sizeof(FarFieldTable) == 5 * 8 + 40);
 static_assert(sizeof(FarLight) == 56);
 static_assert(sizeof(FarEntry) == 12 + 4 * (3 * kWayWords + kFarFaces));
-static_assert(sizeof(FarBakeTable) == 12 * 8 + 32);
+static_assert(sizeof(FarBakeTable) == 12 * 8 + 32 + 8 * 3 + 4);
 
 constexpr std::uint32_t kFirstBatch = 8;   // bricks
 constexpr double kBatchSeconds = 0.2;      // that a batch should take the device
@@ -37,6 +38,7 @@ constexpr double kSidesShare = 0.05;
 constexpr double kSumsShare = 0.97;
 constexpr std::uint32_t kFirstCapacity = 512;  // entries a brick
 constexpr std::uint64_t kEntryBytes = 64u << 20;  // of a batch, most
+constexpr float kCellSpacings = 0.5f;  // of the smallest bricks, a cell of the map of heights
 constexpr float kLargestHalf = 65504;
 
 float skyHeight(const FlatScene& scene) {
@@ -119,6 +121,7 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
     }
     bake_.spread = settings.spread;
     uploadLayout(media);
+    uploadHeights(scene);
     uploadLights();
     writeTables();
     findSides(sceneTable, progress);
@@ -187,6 +190,18 @@ void FarFieldGrid::uploadLayout(std::span<const FarMedium> media) {
         bake_.mediaNodes =
             uploadArray<BoxNode>("far media tree", buildBoxNodes(bounds));
     }
+}
+
+void FarFieldGrid::uploadHeights(const FlatScene& scene) {
+    if (!hasLargeBricks() || settings_.visibility != Visibility::full) {
+        return;
+    }
+    const float cellSide = kCellSpacings * layout_.cellSide / float(kBrickSteps);
+    const HeightMap map = buildHeightMap(ConvexFaces(scene), cellSide);
+    bake_.heightOrigin = map.origin;
+    bake_.heightCounts = map.counts;
+    bake_.heightCell = map.cellSide;
+    bake_.heights = uploadArray<float>("far heights", map.heights);
 }
 
 void FarFieldGrid::uploadLights() {

@@ -94,6 +94,7 @@ private:
     void makePipelines(const FarFieldSettings& settings);
     std::vector<SumPass> makeSumPasses(bool update);
     void uploadLayout(std::span<const FarMedium> media);
+    void uploadHeights(const FlatScene& scene);
     void uploadLights();
     // Visits all bricks in batches that take the device a moment each: so long no process waits
     // that is told to stop, and no watchdog bites. A visit returns the bricks that it did.

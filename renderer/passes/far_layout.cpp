@@ -196,7 +196,9 @@ void addBrick(FarLayout& layout, uvec3 cell, uint scale, const BoxTree& media) {
 }  // namespace
 
 unsigned blurredScale(float nearRadius, float spacing) {
-    constexpr float kLeastSpacings = 3;  // in a near radius
+    // Measured on 10 x 10 buildings from above, nodes 5 m apart, a near radius of 4 m: 6.5 % median
+    // error blurred, 3 % not; at 8 m it is the same.
+    constexpr float kLeastSpacings = 0.7f;  // in a near radius
     unsigned scale = 1;
     while (scale < kBrickScales && nearRadius >= kLeastSpacings * spacing * float(1u << scale)) {
         ++scale;

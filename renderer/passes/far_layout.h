@@ -35,7 +35,7 @@ struct FarLayout {
 };
 
 // From which scale on bricks hold the near parts too, blurred, for nodes that far apart in those of
-// scale 0: where fewer than three lie in the near radius. `nearRadius`, `spacing`: m.
+// scale 0: where they are farther apart than 1.4 near radii. `nearRadius`, `spacing`: m.
 unsigned blurredScale(float nearRadius, float spacing);
 
 // Throws DeviceError, with the figure, where the field would take more than the memory.

@@ -13,6 +13,7 @@
 #include "gpu/acceleration_structure.h"
 #include "passes/far_alignment.h"
 #include "passes/far_media.h"
+#include "passes/height_map.h"
 #include "passes/frame_renderer.h"
 
 namespace nightcity {
@@ -80,8 +81,10 @@ std::uint64_t fieldBytes(const FlatScene& scene, const FarFieldSettings& setting
                                4 * (layout.index.size() + layout.mediumList.size());
     const std::uint64_t near =
         windows * sizeof(NearPane) + bytesOf(double(windows), kNodesABox * sizeof(BoxNode));
+    const bool isLarge = std::ranges::any_of(
+        layout.bricks, [](const FarBrick& brick) { return brick.scale > 0; });
     return grid + lights * (sizeof(FarLight) + 2 * sizeof(vec3) + 1) + farEntryBytes(windows) + near +
-           media.size() * 4 * sizeof(FarMedium);
+           media.size() * 4 * sizeof(FarMedium) + (isLarge ? kHeightMapBytes : 0);
 }
 
 std::uint64_t frameBytes(const gpu::Device& device, const RenderProduct& product,

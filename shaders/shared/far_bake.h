@@ -33,9 +33,12 @@ NIGHTCITY_CONST uint kFarStack = 6144u;     // lights that a group keeps for lat
 NIGHTCITY_CONST uint kFarFaces = 23u;       // of one entry
 NIGHTCITY_CONST uint kMesh = 0xffu;         // sight is that from a mesh of every other node
 NIGHTCITY_CONST uint kMeshSide = kBrickSteps / 2u + 1u;  // of its points along each axis
+NIGHTCITY_CONST uint kRoofPlaces = 4u;     // of a light, that columns look at in turn
+NIGHTCITY_CONST uint kRoofs = 0xfeu;       // sight is that over the map of heights
 NIGHTCITY_CONST uint kCluster = 0x100u;     // sight is that from the brick's corners
 NIGHTCITY_CONST uint kWaySide = 3u;         // of the places where the haze on the way is known
 NIGHTCITY_CONST uint kWayWords = 5u;        // of a layer of them
+NIGHTCITY_CONST float kNoRoof = -1e9f;     // m, where nothing opaque is but the ground
 // m: a node so near to the plane of a face lies on it, and is seen from both of its sides: most
 // walls lie on planes of nodes, and the air before them reads their nodes.
 NIGHTCITY_CONST float kOnFace = 2e-3f;
@@ -67,12 +70,14 @@ struct FarLight {
 struct FarEntry {
     uint light;
     float extinction;  // 1/m, mean of all ways to the brick; negative: it differs
-    uint faceCount;    // or kMesh, or kCluster
+    uint faceCount;    // or kMesh, kRoofs, kCluster
     // Where it differs: 1/m, the means of the ways to 3 x 3 x 3 places of the brick, as halves,
     // those of a layer behind those of the layer below, x fastest, each layer filled to 10.
     uint ways[3u * kWayWords];
     uint face[kFarFaces];  // of a cluster: 4 bits a corner of the brick, quarters that are seen;
-                           // of a mesh: a word a layer, a bit a point that sees the light
+                           // of a mesh: a word a layer, a bit a point that sees the light;
+                           // over roofs: three floats a place of the light, m from the brick's
+                           // centre
 };
 
 struct FarBakeTable {
@@ -96,6 +101,10 @@ struct FarBakeTable {
     float skyHeight;    // m, above all that is opaque
     float thickest;     // 1/m, the largest extinction of all media
     float boundUnit;    // W m^-2, of the sums of bounds
+    uvec2 heights;      // float a cell, m: of a map seen from above, x fastest (passes/height_map.h)
+    vec2 heightOrigin;  // m
+    uvec2 heightCounts; // of cells
+    float heightCell;   // m
     float spread;       // a cluster's half size is at most this share of its distance
 };
 

@@ -413,7 +413,7 @@ TEST(FarField, BricksOfSeveralScalesAgreeWithTheJudge) {
 TEST(FarField, BricksFarAwayHoldAllOfTheLightInTheMean) {
     const FlatScene scene = paperCity(1).load();
     FarFieldSettings settings = ofScales();
-    settings.nearRadius = 2.2f;
+    settings.nearRadius = 0.9f;
     settings.mostBricks = 20;
     device().sync(scene, settings);
     std::vector<glm::vec3> far;
