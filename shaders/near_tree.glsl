@@ -80,7 +80,8 @@ bool mayMeet(RayBundle bundle, BoxNode node) {
                bundle.farthest + slack;
 }
 
-bool isPaneLit(uint window) {
+bool isPaneLit(uint pane) {
+    uint window = UintArray(nearTable.windows).at[pane];
     return (UintArray(sceneTable.windowOn).at[window >> 5] >> (window & 31u) & 1u) != 0u;
 }
 

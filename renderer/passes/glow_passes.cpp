@@ -20,7 +20,7 @@ namespace {
 
 // The layouts that GL_EXT_scalar_block_layout gives the same records.
 static_assert(sizeof(NearPane) == 64);
-static_assert(sizeof(NearTable) == 2 * 8 + 4);
+static_assert(sizeof(NearTable) == 3 * 8 + 4);
 static_assert(sizeof(GlowSample) == 16);
 static_assert(sizeof(GlowTile) == 12);
 static_assert(sizeof(GlowLedger) == 8);

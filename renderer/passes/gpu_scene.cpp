@@ -168,32 +168,14 @@ void GpuScene::uploadNearField(const FlatScene& scene, const FarFieldSettings& s
         nearField_.push_back(std::move(buffer));
         return addressWords(nearField_.back().address());
     };
-    const std::vector<BoxNode> tree = near.buildTree(NearCells(farField_.layout(), table.radius));
-    if (!tree.empty()) {
-        table.tree = keep(upload<BoxNode>("near tree", tree, 0));
-    }
+    const NearField field = near.build(NearCells(farField_.layout(), table.radius));
     scene.dropPages();
-    table.panes = keep(uploadNearPanes(scene, near));
-    contents_.nearField = keep(upload<NearTable>("near table", {&table, 1}, 0));
-}
-
-// Piece by piece, so that no second copy of all is made.
-gpu::Buffer GpuScene::uploadNearPanes(const FlatScene& scene, const NearPanes& near) {
-    constexpr std::size_t kPiece = 1u << 16;
-    gpu::Buffer buffer(device_, "near panes", scene.windows.size() * sizeof(NearPane),
-                       gpu::MemoryKind::device);
-    std::vector<NearPane> piece;
-    for (std::size_t first = 0; first < scene.windows.size(); first += kPiece) {
-        piece.clear();
-        const std::size_t end = std::min(first + kPiece, scene.windows.size());
-        for (std::size_t i = first; i < end; ++i) {
-            piece.push_back(near.pane(i));
-        }
-        commands_.upload(buffer, piece.data(), piece.size() * sizeof(NearPane),
-                         first * sizeof(NearPane));
-        scene.dropPages();
+    if (!field.tree.empty()) {
+        table.tree = keep(upload<BoxNode>("near tree", field.tree, 0));
+        table.panes = keep(upload<NearPane>("near panes", field.panes, 0));
+        table.windows = keep(upload<uint>("windows of near panes", field.windows, 0));
     }
-    return buffer;
+    contents_.nearField = keep(upload<NearTable>("near table", {&table, 1}, 0));
 }
 
 void GpuScene::uploadOccluders(const FlatScene& scene) {

@@ -68,7 +68,6 @@ private:
     void uploadMediaPlanes(const FlatScene& scene);
     void uploadPlanes(const FlatScene& scene, const FacadeTable& facades);
     void uploadNearField(const FlatScene& scene, const FarFieldSettings& settings);
-    gpu::Buffer uploadNearPanes(const FlatScene& scene, const NearPanes& near);
     void buildTriangles(const FlatScene& scene);
     void buildMedia(const FlatScene& scene);
     void buildLoosePanes(const FlatScene& scene);

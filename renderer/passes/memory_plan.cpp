@@ -15,6 +15,7 @@
 #include "passes/far_media.h"
 #include "passes/height_map.h"
 #include "passes/frame_renderer.h"
+#include "passes/near_cells.h"
 
 namespace nightcity {
 namespace {
@@ -79,8 +80,11 @@ std::uint64_t fieldBytes(const FlatScene& scene, const FarFieldSettings& setting
     const std::uint64_t grid = layout.nodes() * kFarNodeBytes +
                                bricks * (sizeof(FarBrick) + 4 * kBrickSideWords + 4) +
                                4 * (layout.index.size() + layout.mediumList.size());
+    const NearCells cells(layout, settings.nearRadius);
+    const auto panes = std::ranges::count_if(
+        scene.windows, [&](const Window& window) { return cells.reaches(window.centre); });
     const std::uint64_t near =
-        windows * sizeof(NearPane) + bytesOf(double(windows), kNodesABox * sizeof(BoxNode));
+        bytesOf(double(panes), sizeof(NearPane) + 4 + kNodesABox * sizeof(BoxNode));
     const bool isLarge = std::ranges::any_of(
         layout.bricks, [](const FarBrick& brick) { return brick.scale > 0; });
     return grid + lights * (sizeof(FarLight) + 2 * sizeof(vec3) + 1) + farEntryBytes(windows) + near +

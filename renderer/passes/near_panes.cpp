@@ -152,27 +152,24 @@ NearExtremes NearPanes::extremes() const {
     return found;
 }
 
-std::vector<BoxNode> NearPanes::buildTree(const NearCells& cells) const {
+NearField NearPanes::build(const NearCells& cells) const {
     constexpr std::uint32_t kBetweenDrops = 1u << 20;  // windows
-    std::vector<std::uint32_t> near;
+    NearField field;
     for (std::uint32_t i = 0; i < scene_.windows.size(); ++i) {
-        if (cells.reaches(scene_.windows[i].centre)) {
-            near.push_back(i);
-        }
-    }
-    std::uint32_t asked = 0;
-    std::vector<BoxNode> nodes = buildBoxNodes(near.size(), [&](std::uint32_t i) {
-        if (++asked % kBetweenDrops == 0) {
+        if (i % kBetweenDrops == kBetweenDrops - 1) {
             scene_.dropPages();
         }
-        const NearPane found = pane(near[i]);
+        if (cells.reaches(scene_.windows[i].centre)) {
+            field.windows.push_back(i);
+            field.panes.push_back(pane(i));
+        }
+    }
+    field.tree = buildBoxNodes(field.panes.size(), [&](std::uint32_t i) {
+        const NearPane& found = field.panes[i];
         const bool isPane = emitter_ == Emitter::pane && !isSphere(found);
         return reachOf(found, double(radius_), isPane ? 0 : double(found.halfV));
     });
-    for (BoxNode& node : nodes) {
-        node.item = node.item == kNone ? kNone : near[node.item];
-    }
-    return nodes;
+    return field;
 }
 
 }  // namespace nightcity

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Nightcity authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The windows as their near parts are integrated, and a tree over the places that these reach
+// The windows whose near parts rays integrate, and a tree over the places that these reach
 // (shaders/shared/glow.h). Does not depend on which windows are on. No Vulkan.
 #pragma once
 
@@ -36,7 +36,13 @@ struct NearExtremes {
     NearKinds kinds(double tolerance) const;
 };
 
-// Made one by one, for a city has more of them than it should hold twice.
+// Those that reach the cells.
+struct NearField {
+    std::vector<NearPane> panes;
+    std::vector<uint> windows;  // of each pane
+    std::vector<BoxNode> tree;  // over what each lights of its ball of the radius
+};
+
 class NearPanes {
 public:
     // `radius`: m, the near radius. With full visibility an isotropic window on a wall lights
@@ -45,13 +51,13 @@ public:
     NearPanes(NearPanes&&) = delete;
     ~NearPanes();
 
-    NearPane pane(std::size_t window) const;
     NearExtremes extremes() const;
-    // Over what each one lights of its ball of the radius: of those alone that reach the cells.
-    std::vector<BoxNode> buildTree(const NearCells& cells) const;
+    NearField build(const NearCells& cells) const;
 
 private:
     class Walls;
+
+    NearPane pane(std::size_t window) const;
 
     const FlatScene& scene_;
     Emitter emitter_;

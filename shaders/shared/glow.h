@@ -49,7 +49,7 @@ NIGHTCITY_CONST uint kRefinePatches = 2u;   // corners of quarters for cells whe
 NIGHTCITY_CONST uint kRefineQuarters = 3u;  // all pixels of cells where it is bent between these
 NIGHTCITY_CONST uint kRefineSteps = 4u;
 
-// A window as its near part is integrated (transport/near_window.h); one a window. What is said of
+// A window as its near part is integrated (transport/near_window.h). What is said of
 // points holds for all windows where the model's emitter is not the pane, and for spheres of light.
 struct NearPane {
     vec3 centre;    // m
@@ -63,9 +63,10 @@ struct NearPane {
 };
 
 struct NearTable {
-    uvec2 panes;   // NearPane
-    uvec2 tree;    // BoxNode over the part of each pane's ball of the near radius before it
-    float radius;  // m, R of transport/near_far_split.h
+    uvec2 panes;    // NearPane, of those windows alone whose near parts rays integrate
+    uvec2 windows;  // uint: the window of each
+    uvec2 tree;     // BoxNode over the part of each pane's ball of the near radius before it
+    float radius;   // m, R of transport/near_far_split.h
 };
 
 // What is found along one ray.

@@ -4,10 +4,14 @@
 // Which windows have near parts that rays integrate, against all cells of the lattice one by one.
 #include "passes/near_cells.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "passes/near_panes.h"
+#include "scene_builder.h"
 
 namespace nightcity {
 namespace {
@@ -71,6 +75,31 @@ TEST(NearCells, HoldTheWindowsThatReachABrickWithoutNearParts) {
     }
     EXPECT_GT(reaching, 100);
     EXPECT_GT(apart, 100);
+}
+
+TEST(NearPanes, AreOfTheWindowsThatReachTheCellsAlone) {
+    const NearCells cells(street(60), kRadius);
+    SceneBuilder city;
+    city.addMediaBox({0, 0, 0}, {900, 40, 20}, 0.01f, 0.9f);
+    city.addCamera("eye", kEye, {900, 20, 2}, 60);
+    const vec3 far(880, 20, 5), near = kEye;
+    for (const vec3& centre : {far, near, far, near + vec3(3, 0, 0)}) {
+        city.addWindow(centre, {0, 0.5f, 0}, {0, 0, 0.5f}, 50, vec3(1), false);
+    }
+    const FlatScene scene = city.load();
+    const NearPanes panes(scene, Emitter::pane, Visibility::none, kRadius);
+    const NearField field = panes.build(cells);
+    ASSERT_EQ(field.windows, (std::vector<uint>{1, 3}));
+    ASSERT_EQ(field.panes.size(), 2u);
+    EXPECT_EQ(field.panes[1].centre, near + vec3(3, 0, 0));
+    std::vector<uint> items;
+    for (const BoxNode& node : field.tree) {
+        if (node.item != kNone) {
+            items.push_back(node.item);
+        }
+    }
+    std::ranges::sort(items);
+    EXPECT_EQ(items, (std::vector<uint>{0, 1}));
 }
 
 TEST(NearCells, HoldNothingWithoutHaze) {
