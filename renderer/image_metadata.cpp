@@ -96,6 +96,9 @@ void addSettings(const RenderSettings& settings, Entries& entries) {
     }
     if (settings.method == Method::field) {
         entries.emplace_back("glowRays", choiceName(settings.glowRays));
+        if (settings.bricks) {
+            entries.emplace_back("bricks", std::to_string(*settings.bricks));
+        }
     }
     if (settings.method == Method::march) {
         entries.emplace_back("marchOrder", choiceName(settings.marchOrder));

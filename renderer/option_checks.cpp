@@ -162,6 +162,8 @@ void checkMethod(const Options& options, const Given& given) {
                                     settings.method != Method::path),
             "--write-only is for --media off, dim surfaces and any method but path: it is the least "
             "that the surface frame can cost");
+    require(settings.method == Method::field || !given("--bricks"),
+            "--bricks is for --method field");
     if (settings.method == Method::path) {
         return;
     }

@@ -221,6 +221,11 @@ void addMethod(CLI::App& app, Options& options) {
     addChoice(app, "--light-storage", settings.lightStorage, "buffers of the light lists");
     addChoice(app, "--glow-rays", settings.glowRays,
               "of --method field: the rays along which glow is integrated, others interpolated");
+    app.add_option("--bricks", settings.bricks,
+                   "of --method field: at most so many bricks of its baked part, which near the camera "
+                   "are as fine as --tolerance asks (default: 6000, of more than 50,000 windows 2000)")
+        ->check(CLI::Range(kLeastBricks, kMostBricks).description(""))
+        ->type_name("N");
     addChoice(app, "--primary", settings.primary,
               "how the device finds what the camera sees; raster where it can, else rays");
     addCount(app, "--pixel-samples", settings.pixelSamples, "rays a pixel");

@@ -56,7 +56,9 @@ FarFieldSettings farFieldSettings(const RenderSettings& settings, const FlatScen
                                   const std::string& cameraName) {
     const CameraTrack& camera = scene.camera(cameraName);
     FarFieldSettings far;
-    if (scene.windows.size() > kLargeCity) {
+    if (settings.bricks) {
+        far.mostBricks = *settings.bricks;
+    } else if (scene.windows.size() > kLargeCity) {
         far.mostBricks = kLargeCityBricks;
     }
     for (const CameraFrame& frame : camera.frames) {

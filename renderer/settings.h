@@ -64,6 +64,9 @@ struct Orders {
     bool operator==(const Orders&) const = default;
 };
 
+// RenderSettings::bricks
+inline constexpr std::uint32_t kLeastBricks = 64, kMostBricks = 1'000'000;
+
 inline constexpr double kFieldTolerance = 0.01;  // of Method::field, where none is given
 
 struct RenderSettings {
@@ -83,6 +86,7 @@ struct RenderSettings {
     Orders orders;                           // within those of model.scattering
     float anisotropy = 0;                    // g of Henyey and Greenstein, within (-1, 1)
     GlowRays glowRays = GlowRays::sparse;
+    std::optional<std::uint32_t> bricks;     // of Method::field's baked part, most; unset: by the scene
     bool media = true;                       // off: the surface frame
     bool writeOnly = false;                  // with media off: write the images, look at nothing
     Primary primary = Primary::raster;

@@ -14,6 +14,7 @@ from nightcity.errors import UsageError
 # What the choice decides.
 _DECIDED = ("--method", "--lights", "--visibility", "--emitter", "--scattering", "--surfaces")
 _DECIDED += ("--subdivisions", "--samples", "--orders", "--g", "--march-order", "--glow-rays")
+_DECIDED += ("--bricks",)
 
 
 def chosen_options(scene: Path, options: Sequence[str]) -> list[str]:

@@ -130,6 +130,9 @@ TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
                        "multiple");
     }
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--samples", "8");
+    for (const char* method : {"path", "gauss", "reference"}) {
+        EXPECT_REFUSED("--method field", "s", "-o", "a.exr", "--method", method, "--bricks", "100");
+    }
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--orders", "2-");
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--g", "0.5");
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--aovs", "glowError");
@@ -150,6 +153,11 @@ TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
     EXPECT_REFUSED("--scattering multiple", "s", "-o", "a.exr", "--method", "path", "--orders", "2-");
 }
 
+TEST(Options, TheFieldTakesANumberOfBricks) {
+    EXPECT_EQ(parse({"s", "-o", "a.exr"})->settings.bricks, std::nullopt);
+    EXPECT_EQ(parse({"s", "-o", "a.exr", "--bricks", "64"})->settings.bricks, 64u);
+}
+
 TEST(Options, BadValuesAreRefused) {
     for (const char* size : {"0x10", "10", "10x", "x10", "-1x10", "99999x10", "65536x65536", "1e3x9"}) {
         EXPECT_REFUSED("--size", "s", "-o", "a.exr", "--size", size);
@@ -158,6 +166,8 @@ TEST(Options, BadValuesAreRefused) {
         EXPECT_REFUSED("--frames", "s", "-o", "a.#.exr", "--frames", frames);
     }
     EXPECT_REFUSED("--subdivisions", "s", "-o", "a.exr", "--subdivisions", "0");
+    EXPECT_REFUSED("--bricks", "s", "-o", "a.exr", "--bricks", "63");
+    EXPECT_REFUSED("--bricks", "s", "-o", "a.exr", "--bricks", "1000001");
     EXPECT_REFUSED("--subdivisions", "s", "-o", "a.exr", "--subdivisions", "-3");
     EXPECT_REFUSED("--pixel-samples", "s", "-o", "a.exr", "--pixel-samples", "many");
     EXPECT_REFUSED("--media", "s", "-o", "a.exr", "--media", "maybe");
