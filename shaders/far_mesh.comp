@@ -4,7 +4,8 @@
 // What lies on the ways from the lights of a batch's entries to their brick: from which points of
 // its mesh (far_mesh.glsl) a light is seen, one way each, from another part of the light than its
 // neighbours', or from which of its corners; which places of a light large bricks look at over
-// the roofs; and how much haze is between. All of an entry's ways are asked by one thread or few, so that no thread waits for others' lights.
+// the roofs; and how much haze is between. All of an entry's ways are asked by one thread or few,
+// so that no thread waits for others' lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
