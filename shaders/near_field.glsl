@@ -73,13 +73,17 @@ PieceBundle bundleOfSubgroup(NearPiece piece) {
     return bundle;
 }
 
+// Of the line from `first` to `last`, m from its start on.
+bool isWithin(vec3 place, float reach, vec3 start, vec3 direction, float first, float last) {
+    vec3 away = place - start;
+    float along = dot(away, direction);
+    vec3 across = away - along * direction;
+    return dot(across, across) < reach * reach && along > first - reach && along < last + reach;
+}
+
 bool mayBeNear(PieceBundle bundle, vec3 centre, float radius) {
-    vec3 away = centre - bundle.start;
-    float along = dot(away, bundle.direction);
-    vec3 across = away - along * bundle.direction;
     float reach = radius + bundle.spread + kBundleSlack;
-    return dot(across, across) < reach * reach &&
-           along > bundle.first - reach && along < bundle.last + reach;
+    return isWithin(centre, reach, bundle.start, bundle.direction, bundle.first, bundle.last);
 }
 
 // The lanes share the work: each looks at every so-manieth pane, for all of them. What no lane looks
@@ -124,12 +128,9 @@ uint nextPaneBy(inout PaneList list, NearPiece piece, bool isCloseBy) {
     uint found = kNone;
     while (list.mayMeet != uvec4(0u) && found == kNone) {
         uint index = UintArray(list.panes).at[takePane(list)];
-        vec3 away = panes.at[index].centre - piece.ray.origin;
         float reach = isCloseBy ? panes.at[index].closeBy : piece.radius;
-        float along = dot(away, piece.ray.direction);
-        vec3 across = away - along * piece.ray.direction;
-        bool isNear = dot(across, across) < reach * reach && along > -reach &&
-                      along < piece.span + reach;
+        bool isNear = isWithin(panes.at[index].centre, reach, piece.ray.origin,
+                               piece.ray.direction, 0.0, piece.span);
         found = isNear ? index : kNone;
     }
     return found;
@@ -223,10 +224,8 @@ NearSum nearGlow(NearPiece piece, uint tile, GlowTable table) {
     for (uint first = found.firstPane; first < end; first += kPanesAtOnce) {
         uvec4 mayMeet = panesNear(bundle, piece.radius, table.tilePanes, first, end);
         PaneList list = PaneList(table.tilePanes, first, mayMeet);
-        if (kNearEmitter == kEmitterPane) {
-            if (addWholePanes(list, piece, sum)) {
-                addCutPanes(list, piece, sum);
-            }
+        if (kNearEmitter == kEmitterPane && addWholePanes(list, piece, sum)) {
+            addCutPanes(list, piece, sum);
         }
         if (kPoints) {
             addPoints(list, piece, sum);

@@ -16,7 +16,6 @@
 #include "passes/far_media.h"
 #include "passes/height_map.h"
 #include "passes/pass_pipelines.h"
-#include "scene/convex_faces.h"
 
 namespace nightcity {
 namespace {
@@ -56,8 +55,7 @@ bool hasSpheres(const FlatScene& scene) {
 }
 
 // Whether some opaque face has more than four corners.
-bool hasPolygons(const FlatScene& scene) {
-    const ConvexFaces faces(scene);
+bool hasPolygons(const ConvexFaces& faces) {
     for (std::uint32_t i = 0; i < faces.size(); ++i) {
         if (faces.face(i).size() > 4) {
             return true;
@@ -109,7 +107,13 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
     const FarCut cut(layout_, {settings.emitter, settings.nearRadius, settings.spread});
     lights_ = buildFarLights(scene, media, cut, settings.emitter);
     scene.dropPages();
-    const bool polygons = hasPolygons(scene), spheres = hasSpheres(scene);
+    bool polygons = false;
+    const bool spheres = hasSpheres(scene);
+    {
+        const ConvexFaces faces(scene);
+        polygons = hasPolygons(faces);
+        uploadHeights(faces);
+    }
     if (polygons != hasPolygons_ || spheres != hasSpheres_) {
         hasPolygons_ = polygons;
         hasSpheres_ = spheres;
@@ -121,7 +125,6 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
     }
     bake_.spread = settings.spread;
     uploadLayout(media);
-    uploadHeights(scene);
     uploadLights();
     writeTables();
     findSides(sceneTable, progress);
@@ -192,12 +195,12 @@ void FarFieldGrid::uploadLayout(std::span<const FarMedium> media) {
     }
 }
 
-void FarFieldGrid::uploadHeights(const FlatScene& scene) {
-    if (!hasLargeBricks() || settings_.visibility != Visibility::full) {
+void FarFieldGrid::uploadHeights(const ConvexFaces& faces) {
+    if (!layout_.hasLargeBricks() || settings_.visibility != Visibility::full) {
         return;
     }
     const float cellSide = kCellSpacings * layout_.cellSide / float(kBrickSteps);
-    const HeightMap map = buildHeightMap(ConvexFaces(scene), cellSide);
+    const HeightMap map = buildHeightMap(faces, cellSide);
     bake_.heightOrigin = map.origin;
     bake_.heightCounts = map.counts;
     bake_.heightCell = map.cellSide;
@@ -266,10 +269,6 @@ void FarFieldGrid::dispatch(const char* name, const gpu::ComputePipeline& pipeli
         pipeline.dispatch(commands, &push, push.pixelCount);
         gpu::computeBarrier(commands);
     }));
-}
-
-bool FarFieldGrid::hasLargeBricks() const {
-    return std::ranges::any_of(layout_.bricks, [](const FarBrick& brick) { return brick.scale > 0; });
 }
 
 std::uint64_t FarFieldGrid::bytes() const {

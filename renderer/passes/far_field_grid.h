@@ -21,6 +21,7 @@
 #include "gpu/readable_buffer.h"
 #include "passes/far_layout.h"
 #include "passes/far_lights.h"
+#include "scene/convex_faces.h"
 #include "scene/flat_scene.h"
 #include "settings.h"
 
@@ -70,9 +71,6 @@ public:
     const gpu::Buffer& nodes() const { return nodes_; }  // uvec2 each, as frames read them
     std::uint64_t nodeCount() const { return layout_.nodes(); }
     std::uint64_t brickCount() const { return layout_.bricks.size(); }
-    // Larger ones than the smallest: their nodes are as far apart as their number allows, not as
-    // the tolerance asks.
-    bool hasLargeBricks() const;
     std::uint64_t bytes() const;  // on the device
     // What the device took for the last syncWindowState, by pass, with the syncGeometry before it.
     const std::vector<PassTime>& passTimes() const { return passTimes_; }
@@ -94,7 +92,7 @@ private:
     void makePipelines(const FarFieldSettings& settings);
     std::vector<SumPass> makeSumPasses(bool update);
     void uploadLayout(std::span<const FarMedium> media);
-    void uploadHeights(const FlatScene& scene);
+    void uploadHeights(const ConvexFaces& faces);
     void uploadLights();
     // Visits all bricks in batches that take the device a moment each: so long no process waits
     // that is told to stop, and no watchdog bites. A visit returns the bricks that it did.

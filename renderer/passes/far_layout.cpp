@@ -195,6 +195,10 @@ void addBrick(FarLayout& layout, uvec3 cell, uint scale, const BoxTree& media) {
 
 }  // namespace
 
+bool FarLayout::hasLargeBricks() const {
+    return std::ranges::any_of(bricks, [](const FarBrick& brick) { return brick.scale > 0; });
+}
+
 unsigned blurredScale(float nearRadius, float spacing) {
     // Measured on 10 x 10 buildings from above, nodes 5 m apart, a near radius of 4 m: 6.5 % median
     // error blurred, 3 % not; at 8 m it is the same.

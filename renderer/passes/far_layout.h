@@ -32,6 +32,9 @@ struct FarLayout {
     std::vector<FarBrick> bricks;  // neighbours in space mostly are neighbours here
     std::vector<uint> mediumList;
     std::uint64_t nodes() const { return std::uint64_t{bricks.size()} * kBrickNodes; }
+    // Larger ones than the smallest: their nodes are as far apart as their number allows, not as
+    // the tolerance asks.
+    bool hasLargeBricks() const;
 };
 
 // From which scale on bricks hold the near parts too, blurred, for nodes that far apart in those of

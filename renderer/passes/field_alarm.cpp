@@ -63,8 +63,8 @@ std::optional<std::string> fieldAlarm(double estimate, double tolerance, std::ui
     return "the " + std::to_string(bricks) +
            " bricks of the field are too coarse for what this camera sees: it estimates that half "
            "of the glow may be off by " + percent(estimate) + " or more, where --tolerance asks for " +
-           percent(tolerance) + " (--aovs error shows where); more --bricks bring it down and take longer to bake, --method "
-           "gauss keeps to the tolerance, however long that takes";
+           percent(tolerance) + " (--aovs error shows where); more --bricks bring it down and take "
+           "longer to bake, --method gauss keeps to the tolerance, however long that takes";
 }
 
 void FieldAlarm::sceneChanged() {
@@ -82,7 +82,7 @@ void FieldAlarm::update(gpu::Device& device, gpu::Commands& commands, const GpuS
         return;
     }
     sceneChanged();
-    if (!field || !scene.farField().hasLargeBricks()) {
+    if (!field || !scene.farField().layout().hasLargeBricks()) {
         return;
     }
     const std::vector<std::uint8_t> on = flat.windowsOn(product.frame);

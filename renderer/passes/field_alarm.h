@@ -17,8 +17,8 @@ namespace nightcity {
 std::optional<std::string> fieldAlarm(double estimate, double tolerance, std::uint64_t bricks);
 
 // The alarm of what is rendered now. It takes a small frame with the field's own estimate of its
-// error, once a camera, tolerance, model and number of bricks: a track of a camera is looked along from its first frame
-// with a lit window.
+// error, once a camera, tolerance, model and number of bricks: a track of a camera is looked along
+// from its first frame with a lit window.
 class FieldAlarm {
 public:
     void sceneChanged();

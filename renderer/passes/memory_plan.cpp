@@ -85,10 +85,8 @@ std::uint64_t fieldBytes(const FlatScene& scene, const FarFieldSettings& setting
         scene.windows, [&](const Window& window) { return cells.reaches(window.centre); });
     const std::uint64_t near =
         bytesOf(double(panes), sizeof(NearPane) + 4 + kNodesABox * sizeof(BoxNode));
-    const bool isLarge = std::ranges::any_of(
-        layout.bricks, [](const FarBrick& brick) { return brick.scale > 0; });
     return grid + lights * (sizeof(FarLight) + 2 * sizeof(vec3) + 1) + farEntryBytes(windows) + near +
-           media.size() * 4 * sizeof(FarMedium) + (isLarge ? kHeightMapBytes : 0);
+           media.size() * 4 * sizeof(FarMedium) + (layout.hasLargeBricks() ? kHeightMapBytes : 0);
 }
 
 std::uint64_t frameBytes(const gpu::Device& device, const RenderProduct& product,
