@@ -86,25 +86,22 @@ bool mayBeNear(PieceBundle bundle, vec3 centre, float radius) {
     return isWithin(centre, reach, bundle.start, bundle.direction, bundle.first, bundle.last);
 }
 
-// The lanes share the work: each looks at every so-manieth pane, for all of them. What no lane looks
-// at, for it has nothing to integrate, counts as near.
+// The lanes that integrate share the work: each looks at every so-manieth pane, for all of them.
 uvec4 panesNear(PieceBundle bundle, float radius, uvec2 panes, uint first, uint end) {
-    uint lanes = min(gl_SubgroupSize, 32u);
-    bool isLooking = gl_SubgroupInvocationID < 32u;
-    uint others = ~subgroupBallot(isLooking).x;
-    uint all = lanes == 32u ? ~0u : (1u << lanes) - 1u;
+    uvec4 lanes = subgroupBallot(true);
+    uint count = subgroupBallotBitCount(lanes);
+    uint rank = subgroupBallotExclusiveBitCount(lanes);
     uvec4 near = uvec4(0u);
     for (uint word = 0u; word < 4u; ++word) {
+        uint from = min(first + 32u * word, end);
+        uint left = min(end - from, 32u);
         uint bits = 0u;
-        for (uint k = 0u; k < 32u && first + 32u * word + k < end; k += lanes) {
-            uint mine = first + 32u * word + k + gl_SubgroupInvocationID;
-            uint index = UintArray(panes).at[min(mine, end - 1u)];
+        for (uint k = rank; k < left; k += count) {
+            uint index = UintArray(panes).at[from + k];
             vec3 centre = NearPaneArray(nearTable.panes).at[index].centre;
-            bool isNear = isLooking && mayBeNear(bundle, centre, radius);
-            bits |= ((subgroupBallot(isNear).x | others) & all) << k;
+            bits |= mayBeNear(bundle, centre, radius) ? 1u << k : 0u;
         }
-        uint left = end - min(first + 32u * word, end);
-        near[word] = bits & (left < 32u ? (1u << left) - 1u : ~0u);
+        near[word] = subgroupOr(bits);
     }
     return near;
 }

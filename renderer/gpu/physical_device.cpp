@@ -108,8 +108,9 @@ void queryQueue(DeviceDescription& description) {
 }
 
 bool hasSubgroupBallot(const VkPhysicalDeviceSubgroupProperties& subgroup) {
-    constexpr VkSubgroupFeatureFlags kNeeded =
-        VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT;
+    constexpr VkSubgroupFeatureFlags kNeeded = VK_SUBGROUP_FEATURE_BALLOT_BIT |
+                                               VK_SUBGROUP_FEATURE_VOTE_BIT |
+                                               VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
     return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
            (subgroup.supportedOperations & kNeeded) == kNeeded;
 }
@@ -205,7 +206,8 @@ std::vector<std::string> DeviceDescription::missing() const {
          "accelerationStructure");
     need(features.bufferDeviceAddress, "bufferDeviceAddress");
     need(features.scalarBlockLayout, "scalarBlockLayout");
-    need(features.subgroupBallot, "subgroup ballots and votes in compute shaders");
+    need(features.subgroupBallot,
+         "subgroup ballots, votes and arithmetic in compute shaders");
     need(features.uniformArrayDynamicIndexing, "shaderUniformBufferArrayDynamicIndexing");
     need(features.uniformArrayNonUniformIndexing, "shaderUniformBufferArrayNonUniformIndexing");
     need(features.storageArrayDynamicIndexing, "shaderStorageBufferArrayDynamicIndexing");

@@ -21,7 +21,7 @@ struct DeviceFeatures {
     bool rayQuery = false;
     bool bufferDeviceAddress = false;
     bool scalarBlockLayout = false;
-    bool subgroupBallot = false;  // and votes, in compute shaders
+    bool subgroupBallot = false;  // votes and arithmetic too, in compute shaders
     bool uniformArrayDynamicIndexing = false;
     bool uniformArrayNonUniformIndexing = false;
     bool storageArrayDynamicIndexing = false;
