@@ -32,7 +32,7 @@ struct FarStep {
     float spacing;  // m
     float spread;   // FarFieldSettings
 };
-constexpr FarStep kFarSteps[] = {{0.03, 1.0f, 0.15f}, {0.01, 0.5f, 0.06f}};
+constexpr FarStep kFarSteps[] = {{0.03, 1.0f, 0.15f}, {0.01, 0.5f, 0.025f}};
 constexpr FarStep kWidestStep = {INFINITY, 1.43f, 0.2f};  // for larger tolerances
 // Near windows cost as the square of the near radius; below so many spacings the far part has
 // peaks that the nodes miss.

@@ -9,6 +9,9 @@
 
 // An inner light of more faces than this is not asked about further: its windows are.
 const uint kMostFacesAsked = 24u;
+// Of a window with more faces before it than an entry lists, so many more are asked whether one of
+// them alone hides it: the mesh of its sight says so too.
+const uint kMostFacesBeyond = 40u;
 const float kLargestAsked = 16.0;  // m, half size of the lights that are asked about at all
 
 // On which side of the face's plane all of a box is: 1 or -1; 0 on both.
@@ -38,16 +41,17 @@ uint whatFaceHides(OccluderFace face, vec3 origin, vec3 light, vec3 lightHalf, v
     bool all = boxSide(face, corner, vec3(0.0), brickHalf + kOnFace) == -lightSide;
     for (uint i = 0u; i < face.cornerCount; ++i) {
         vec3 next = faceCorner(face, i + 1u, origin);
-        bool outside = true;
-        for (uint c = 0u; c < 8u; ++c) {
-            vec3 side = vec3(uvec3(c, c >> 1, c >> 2) & 1u) * 2.0 - 1.0;
-            vec3 from = light + side * lightHalf;
-            vec3 plane = cross(corner - from, next - from) * float(lightSide);
-            float middle = -dot(plane, from);
-            float reach = dot(abs(plane), brickHalf);
-            all = all && middle + reach <= 0.0;
-            outside = outside && middle > (1.0 + kPlaneSlack) * reach;
-        }
+        // The plane's normal and the height of the origin over it are linear in the place of the
+        // light: c x n - l x (n - c), and -l . (c x n).
+        vec3 edge = next - corner;
+        vec3 across = cross(corner, next);
+        vec3 plane = abs(across - cross(light, edge)) + abs(edge).zxy * lightHalf.yzx +
+                     abs(edge).yzx * lightHalf.zxy;
+        float middle = -dot(across, light) * float(lightSide);
+        float reach = dot(plane, brickHalf);
+        float around = dot(abs(across), lightHalf);
+        all = all && middle + around + reach <= 0.0;
+        bool outside = middle - around > (1.0 + kPlaneSlack) * reach;
         if (outside) {
             return kHidesNothing;
         }
@@ -89,8 +93,10 @@ bool findFaces(FarLight light, vec3 way, vec3 brickCentre, vec3 brickHalf, out F
     }
     Between between = betweenBoxAndBox(brickCentre, brickHalf, way, light.reach);
     uint walk = 0u;
-    for (uint index = nextOccluder(walk, between); index != kNone;
+    uint asked = 0u;
+    for (uint index = nextOccluder(walk, between); index != kNone && asked < kMostFacesBeyond;
          index = nextOccluder(walk, between)) {
+        asked += entry.faceCount == kMesh ? 1u : 0u;
         OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
         if (isBehindPane(light, face, faceCorner(face, 0u, brickCentre), way)) {
             continue;

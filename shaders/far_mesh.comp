@@ -4,8 +4,7 @@
 // What lies on the ways from the lights of a batch's entries to their brick: from which points of
 // its mesh (far_mesh.glsl) a light is seen, one way each, from another part of the light than its
 // neighbours', or from which of its corners; which places of a light large bricks look at over
-// the roofs; and how much haze is between. All of an entry's ways are asked by one thread or few,
-// so that no thread waits for others' lights.
+// the roofs; and how much haze is between.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -16,6 +15,7 @@
 
 layout(local_size_x = kGroupSize) in;
 
+const float kFarSides = 14.0;  // of a brick, from which on a light is far
 const float kShortestWay = 1e-6;  // m
 
 shared vec3 wayEnds[kWaySide * kWaySide * kWaySide];  // m, from the brick's centre
@@ -34,21 +34,16 @@ bool sees(vec3 place, uvec3 point, FarLight light, uint index, FarWindow window,
     return !isBelow && !isHiddenByAny(part, place, origin);
 }
 
-// Of a row of points along x: threads side by side walk much the same ways.
-uint rowSees(uint entry, uvec2 row, FarBrick brick, float side, vec3 origin) {
+bool meshSees(uint entry, uvec3 point, FarBrick brick, vec3 origin, FarFieldTable field) {
     uint index = FarEntryArray(bakeTable.entries).at[entry].light;
     FarLight light = FarLightArray(bakeTable.lights).at[index];
     FarWindow window = farWindow(entry, origin);
-    uint word = 0u;
-    for (uint i = 0u; i < kMeshSide; ++i) {
-        uvec3 point = uvec3(i, row);
-        vec3 place = (vec3(point) / float(kMeshSide - 1u) - 0.5) * side;
-        // Neighbouring bricks agree on what they share.
-        uvec3 number = brick.cell * (kMeshSide - 1u) + point;
-        place = askedPlace(place, light, window.centre, side / float(kBrickSteps));
-        word |= sees(place, number, light, index, window, origin) ? 1u << i : 0u;
-    }
-    return word;
+    float side = brickSide(field, brick);
+    vec3 place = (vec3(point) / float(kMeshSide - 1u) - 0.5) * side;
+    // Neighbouring bricks agree on what they share.
+    uvec3 number = brick.cell * (kMeshSide - 1u) + point;
+    place = askedPlace(place, light, window.centre, side / float(kBrickSteps));
+    return sees(place, number, light, index, window, origin);
 }
 
 // The nearest place in the brick's haze: what is found there goes on beyond it, so that the field
@@ -74,8 +69,8 @@ float meanExtinction(vec3 from, vec3 to, vec3 origin, FarFieldTable field) {
     return depthThroughMedia(from, to, origin, field) / max(length(to - from), kShortestWay);
 }
 
-// The haze on the ways to a layer of places. Of a coarse brick the one in the middle speaks for its
-// layer: over the roofs haze differs by height.
+// The haze on the ways to a layer of places. Of a coarse brick, and from far away, the one in the
+// middle speaks for its layer: over the roofs haze differs by height.
 void findHaze(uint entry, uint layer, FarBrick brick, vec3 origin, FarFieldTable field) {
     uint index = FarEntryArray(bakeTable.entries).at[entry].light;
     vec3 from = FarLightArray(bakeTable.lights).at[index].centre - origin;
@@ -85,7 +80,9 @@ void findHaze(uint entry, uint layer, FarBrick brick, vec3 origin, FarFieldTable
         FarEntryArray(bakeTable.entries).at[entry].ways[layer * kWayWords + i] =
             packHalf2x16(vec2(middle));
     }
-    for (uint i = 0u; brick.scale == 0u && i < kWayWords; ++i) {
+    vec3 gap = abs(from) - 0.5 * brickSide(field, brick);
+    bool isFar = max(gap.x, max(gap.y, gap.z)) > kFarSides * brickSide(field, brick);
+    for (uint i = 0u; brick.scale == 0u && !isFar && i < kWayWords; ++i) {
         uvec2 pair = min(uvec2(2u * i, 2u * i + 1u), uvec2(kWaySide * kWaySide - 1u)) + first;
         FarEntryArray(bakeTable.entries).at[entry].ways[layer * kWayWords + i] =
             packHalf2x16(vec2(meanExtinction(from, wayEnds[pair.x], origin, field),
@@ -93,25 +90,124 @@ void findHaze(uint entry, uint layer, FarBrick brick, vec3 origin, FarFieldTable
     }
 }
 
-void findMesh(uint entries, FarBrick brick, vec3 origin, FarFieldTable field) {
-    float side = brickSide(field, brick);
-    for (uint i = gl_LocalInvocationIndex; i < entries * kMeshSide * kMeshSide; i += kGroupSize) {
-        uint entry = firstEntry() + i / (kMeshSide * kMeshSide);
+// A chunk of the brick's entries at a time: what the points of their meshes see, a word a layer, and
+// the points that are still to be asked, numbered through the chunk. All threads ask at once, so
+// that none waits for one whose points are known.
+const uint kChunkEntries = 32u;
+const uint kMeshPoints = kMeshSide * kMeshSide * kMeshSide;
+shared uint meshWords[kChunkEntries * kMeshSide];
+shared uint asked[kChunkEntries * kMeshPoints];
+shared uint askedCount;
+
+uvec3 meshPoint(uint number) {
+    return uvec3(number, number / kMeshSide, number / (kMeshSide * kMeshSide)) % kMeshSide;
+}
+
+// `number`: of the entry in the chunk.
+bool isSeenAt(uint number, uvec3 point) {
+    uint word = meshWords[number * kMeshSide + point.z];
+    return (word >> (point.y * kMeshSide + point.x) & 1u) != 0u;
+}
+
+void markSeen(uint number, uvec3 point) {
+    atomicOr(meshWords[number * kMeshSide + point.z], 1u << (point.y * kMeshSide + point.x));
+}
+
+// Of eight points about one, even along each axis, those that see the light. Along axes where it is
+// even itself they are the same ones twice.
+uint evenPointsSeeing(uint number, uvec3 point) {
+    uint seen = 0u;
+    for (uint c = 0u; c < 8u; ++c) {
+        uvec3 up = uvec3(c, c >> 1, c >> 2) & 1u;
+        uvec3 odd = point & 1u;
+        seen += isSeenAt(number, point - odd + 2u * odd * up) ? 1u : 0u;
+    }
+    return seen;
+}
+
+// Lists the points that are even along each axis; or of the others those between whose even
+// neighbours light and shadow change. The rest sees what these see.
+void listPoints(uint first, uint count, bool even) {
+    if (gl_LocalInvocationIndex == 0u) {
+        askedCount = 0u;
+    }
+    barrier();
+    for (uint i = gl_LocalInvocationIndex; i < count * kMeshPoints; i += kGroupSize) {
+        uint number = i / kMeshPoints;
+        uvec3 point = meshPoint(i % kMeshPoints);
+        bool isEven = ((point.x | point.y | point.z) & 1u) == 0u;
+        if (FarEntryArray(bakeTable.entries).at[first + number].faceCount != kMesh ||
+            isEven != even) {
+            continue;
+        }
+        uint seeing = even ? 1u : evenPointsSeeing(number, point);
+        if (seeing == 8u) {
+            markSeen(number, point);
+        } else if (seeing > 0u) {
+            asked[atomicAdd(askedCount, 1u)] = i;
+        }
+    }
+    barrier();
+}
+
+void askPoints(uint first, FarBrick brick, vec3 origin, FarFieldTable field) {
+    for (uint i = gl_LocalInvocationIndex; i < askedCount; i += kGroupSize) {
+        uint number = asked[i] / kMeshPoints;
+        uvec3 point = meshPoint(asked[i] % kMeshPoints);
+        if (meshSees(first + number, point, brick, origin, field)) {
+            markSeen(number, point);
+        }
+    }
+    barrier();
+}
+
+bool seesNothing(uint number) {
+    uint seen = 0u;
+    for (uint layer = 0u; layer < kMeshSide; ++layer) {
+        seen |= meshWords[number * kMeshSide + layer];
+    }
+    return seen == 0u;
+}
+
+void keepMesh(uint first, uint count) {
+    for (uint i = gl_LocalInvocationIndex; i < count * kMeshSide; i += kGroupSize) {
+        uint entry = first + i / kMeshSide;
         if (FarEntryArray(bakeTable.entries).at[entry].faceCount == kMesh) {
-            uvec2 row = uvec2(i, i / kMeshSide) % kMeshSide;
-            uint bits = rowSees(entry, row, brick, side, origin);
-            atomicOr(FarEntryArray(bakeTable.entries).at[entry].face[row.y],
-                     bits << row.x * kMeshSide);
+            FarEntryArray(bakeTable.entries).at[entry].face[i % kMeshSide] = meshWords[i];
         }
     }
 }
 
-void findAllHaze(uint entries, FarBrick brick, vec3 origin, FarFieldTable field) {
-    for (uint i = gl_LocalInvocationIndex; i < entries * kWaySide; i += kGroupSize) {
-        uint entry = firstEntry() + i / kWaySide;
-        if (FarEntryArray(bakeTable.entries).at[entry].extinction < 0.0) {
+void findHazeOfSeen(uint first, uint count, FarBrick brick, vec3 origin, FarFieldTable field) {
+    for (uint i = gl_LocalInvocationIndex; i < count * kWaySide; i += kGroupSize) {
+        uint number = i / kWaySide;
+        uint entry = first + number;
+        bool isHidden = FarEntryArray(bakeTable.entries).at[entry].faceCount == kMesh &&
+                        seesNothing(number);
+        if (FarEntryArray(bakeTable.entries).at[entry].extinction < 0.0 && !isHidden) {
             findHaze(entry, i % kWaySide, brick, origin, field);
         }
+    }
+}
+
+void findChunk(uint first, uint count, FarBrick brick, vec3 origin, FarFieldTable field) {
+    for (uint i = gl_LocalInvocationIndex; i < count * kMeshSide; i += kGroupSize) {
+        meshWords[i] = 0u;
+    }
+    if (brick.scale == 0u) {
+        listPoints(first, count, true);
+        askPoints(first, brick, origin, field);
+        listPoints(first, count, false);
+        askPoints(first, brick, origin, field);
+        keepMesh(first, count);
+    }
+    findHazeOfSeen(first, count, brick, origin, field);
+    barrier();
+}
+
+void findSightAndHaze(uint entries, FarBrick brick, vec3 origin, FarFieldTable field) {
+    for (uint done = 0u; done < entries; done += kChunkEntries) {
+        findChunk(firstEntry() + done, min(entries - done, kChunkEntries), brick, origin, field);
     }
 }
 
@@ -164,11 +260,9 @@ void main() {
     }
     barrier();
     uvec2 counts = entryCounts();
-    if (brick.scale == 0u) {
-        findMesh(counts.x, brick, origin, field);
-    } else if (kFarVisibility != 0u) {
+    if (brick.scale > 0u && kFarVisibility != 0u) {
         findRoofPlaces(counts.x, origin);
     }
-    findAllHaze(counts.x, brick, origin, field);
+    findSightAndHaze(counts.x, brick, origin, field);
     findClusters(counts, brick, origin, field);
 }

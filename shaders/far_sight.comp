@@ -15,11 +15,16 @@
 layout(local_size_x = kGroupSize) in;
 
 const uint kLargestHiddenFrom = 1u; // scale of bricks that one face often hides from a light
+const uint kMostWaiting = 4u * kGroupSize;  // windows
 
 // Lights still to be looked at. A round takes the last kGroupSize of them and puts
 // back at most two for each: as deep as the tree is, no more than kFarStack are there.
 shared uint stack[kFarStack];
 shared uint stackSize;
+// Windows whose faces are still to be found: all threads do that at once, so that none waits for
+// one that is still in the tree.
+shared uint windows[kMostWaiting];
+shared uint windowCount;
 shared uint bound;  // of the sums, in boundUnit
 
 bool hasChanged(uint light) {
@@ -134,9 +139,6 @@ void append(uint index, FarLight light, uint how, vec3 brickCentre, vec3 brickHa
     if (!hasChanged(index)) {
         return;
     }
-    for (uint i = 0u; entry.faceCount == kMesh && i < kMeshSide; ++i) {
-        entry.face[i] = 0u;  // far_mesh.comp adds to them
-    }
     entry.light = index;
     entry.extinction = extinctionOnTheWay(light, brick);
     bool fromEnd = how == kSeenFromCorners;
@@ -147,6 +149,42 @@ void append(uint index, FarLight light, uint how, vec3 brickCentre, vec3 brickHa
         FarEntryArray(bakeTable.entries).at[groupInBatch() * bakeTable.entryCapacity + slot] =
             entry;
     }
+}
+
+// A round of the walk: takes lights from the stack and puts back their children.
+void lookIntoLights(vec3 brickCentre, vec3 brickHalf, FarBrick brick) {
+    uint thread = gl_LocalInvocationIndex;
+    uint taken = min(stackSize, kGroupSize);
+    uint rest = stackSize - taken;
+    uint index = thread < taken ? stack[rest + thread] : kNone;
+    barrier();
+    if (thread == 0u) {
+        stackSize = rest;
+    }
+    barrier();
+    if (index != kNone && (bakeTable.update == 0u || hasChanged(index))) {
+        FarLight light = FarLightArray(bakeTable.lights).at[index];
+        vec3 way = light.centre - brickCentre;
+        if (!facesAway(light, -way, brickHalf)) {
+            uint how = howSeen(light, way, brickHalf, brick);
+            if (isWindow(light)) {
+                windows[atomicAdd(windowCount, 1u)] = index;
+            } else if (how != kSeenApart) {
+                append(index, light, how, brickCentre, brickHalf, brick);
+            } else if (brick.scale > kLargestHiddenFrom ||
+                       !isHidden(light, way, brickCentre, brickHalf)) {
+                uint slot = atomicAdd(stackSize, 2u);
+                stack[slot] = index + 1u;
+                stack[slot + 1u] = light.second;
+            }
+        }
+    }
+    barrier();
+}
+
+void appendWindow(uint index, vec3 brickCentre, vec3 brickHalf, FarBrick brick) {
+    FarLight light = FarLightArray(bakeTable.lights).at[index];
+    append(index, light, kSeenApart, brickCentre, brickHalf, brick);
 }
 
 void main() {
@@ -161,32 +199,20 @@ void main() {
     }
     if (thread == 0u) {
         stackSize = bakeTable.rootCount;
+        windowCount = 0u;
         bound = 1u;
     }
     barrier();
     while (stackSize > 0u) {
-        uint taken = min(stackSize, kGroupSize);
-        uint rest = stackSize - taken;
-        uint index = thread < taken ? stack[rest + thread] : kNone;
-        barrier();
-        if (thread == 0u) {
-            stackSize = rest;
+        while (stackSize > 0u && windowCount <= kMostWaiting - kGroupSize) {
+            lookIntoLights(brickCentre, brickHalf, brick);
+        }
+        for (uint i = thread; i < windowCount; i += kGroupSize) {
+            appendWindow(windows[i], brickCentre, brickHalf, brick);
         }
         barrier();
-        if (index != kNone && (bakeTable.update == 0u || hasChanged(index))) {
-            FarLight light = FarLightArray(bakeTable.lights).at[index];
-            vec3 way = brickCentre - light.centre;
-            if (!facesAway(light, way, brickHalf)) {
-                uint how = howSeen(light, -way, brickHalf, brick);
-                if (how != kSeenApart || isWindow(light)) {
-                    append(index, light, how, brickCentre, brickHalf, brick);
-                } else if (brick.scale > kLargestHiddenFrom ||
-                           !isHidden(light, -way, brickCentre, brickHalf)) {
-                    uint slot = atomicAdd(stackSize, 2u);
-                    stack[slot] = index + 1u;
-                    stack[slot + 1u] = light.second;
-                }
-            }
+        if (thread == 0u) {
+            windowCount = 0u;
         }
         barrier();
     }
