@@ -58,10 +58,13 @@ struct PieceBundle {
     float spread, first, last;  // m
 };
 
+// About the mean of their middles: about one of them it would be twice as wide.
 PieceBundle bundleOfSubgroup(NearPiece piece) {
+    float lanes = float(subgroupBallotBitCount(subgroupBallot(true)));
     PieceBundle bundle;
-    bundle.start = subgroupBroadcastFirst(piece.ray.origin);
-    bundle.direction = subgroupBroadcastFirst(piece.ray.direction);
+    bundle.start =
+        subgroupAdd(piece.ray.origin + 0.5 * piece.span * piece.ray.direction) / lanes;
+    bundle.direction = normalize(subgroupAdd(piece.ray.direction));
     vec3 begin = piece.ray.origin - bundle.start;
     vec3 end = begin + piece.span * piece.ray.direction;
     float alongBegin = dot(begin, bundle.direction);
