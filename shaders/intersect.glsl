@@ -146,6 +146,9 @@ int firstMediaId(Ray ray, float end) {
             begin = entry;
             first = index;
             mediaId = box.mediaId;
+            // The device need not look further. It still finds a box that begins at the same place,
+            // as the structure's are inflated by more than rounding.
+            rayQueryGenerateIntersectionEXT(query, entry);
         }
     }
     return mediaId;
