@@ -25,7 +25,9 @@ uint firstEntry() {
 }
 
 bool sees(vec3 place, uvec3 point, FarLight light, uint index, FarWindow window, vec3 origin) {
-    uvec3 parity = point & 1u;
+    // Points that are even along each axis are asked first, and must not all ask for one part.
+    bool isEven = ((point.x | point.y | point.z) & 1u) == 0u;
+    uvec3 parity = (isEven ? point >> 1u : point) & 1u;
     vec3 part = light.second == 0u
                     ? panePoint(window, parity.x | (parity.y ^ parity.z) << 1)
                     : partOf(index, parity.x | parity.y << 1 | parity.z << 2) - origin;
