@@ -236,6 +236,42 @@ TEST(Field, SparseRaysStayWithinTheToleranceOfAllRays) {
     EXPECT_LT(std::abs(errors.bias), 1e-3);
 }
 
+// A facade of more panes than a subgroup looks through at once, and haze before half of it.
+SceneBuilder manyPanes() {
+    SceneBuilder city;
+    const uint wall = city.addMaterial(vec3(0.5f));
+    city.addBoxBuilding({-6, 0, 0}, {6, 4, 12}, wall);
+    for (int k = 0; k < 144; ++k) {
+        const vec3 centre{-5.0f + 0.9f * float(k % 12), -0.01f, 1 + 0.9f * float(k / 12)};
+        city.addWindow(centre, {0.2f, 0, 0}, {0, 0, 0.25f});
+    }
+    city.addMediaBox({-6, -4, 0}, {1, 0, 12}, 0.02f, 0.9f);
+    city.addCamera("front", {3, -25, 9}, {0, 0, 6}, 40);
+    return city;
+}
+
+// The first pixel of a cell has its own ray in both, beside other rays in each.
+TEST(Field, ARayFindsTheSamePanesWhateverRaysAreBeside) {
+    const FlatScene scene = manyPanes().load();
+    const RenderProduct product = productOf("front", 97, 65);
+    RenderSettings sparse = fieldSettings(), all = fieldSettings(GlowRays::all);
+    for (RenderSettings* settings : {&sparse, &all}) {
+        settings->tolerance = 0.1;
+        settings->model.visibility = Visibility::none;
+    }
+    const Frame one = renderOnDevice(scene, product, sparse);
+    const Frame other = renderOnDevice(scene, product, all);
+    std::size_t hazy = 0;
+    for (std::size_t y = 0; y < product.height; y += kGlowCell) {
+        for (std::size_t x = 0; x < product.width; x += kGlowCell) {
+            const std::size_t at = y * product.width + x;
+            EXPECT_EQ(one.glow[at], other.glow[at]) << x << ", " << y;
+            hazy += other.transmittance[at] < 1;
+        }
+    }
+    EXPECT_GT(hazy, 50u);
+}
+
 TEST(Field, PixelsAndTilesEqualTheFrame) {
     const FlatScene scene = twoWindows().load();
     const RenderProduct product = productOf("inside", 131, 90);
