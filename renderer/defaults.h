@@ -15,17 +15,16 @@ inline constexpr Model kSingleModel{.lights = Lights::all,
                                     .scattering = Scattering::single,
                                     .surfaces = Surfaces::dim};
 
-// The fastest method that knows the model and holds the tolerance. What it says of a pixel
-// must not depend on how many are asked for: neither frames nor pixels nor tiles decide.
-inline Method defaultMethod(const RenderSettings& settings) {
-    if (settings.model.scattering == Scattering::multiple) {
-        return Method::path;
-    }
+// The fastest method that knows the model and holds the tolerance; `paths`: options that only paths
+// know are given. What it says of a pixel must not depend on how many are asked for: neither frames
+// nor pixels nor tiles decide.
+inline Method defaultMethod(const RenderSettings& settings, bool paths) {
     const bool isFine = settings.tolerance.value_or(kFieldTolerance) < kFieldTolerance;
-    if (settings.model.lights == Lights::listed || settings.reach || isFine) {
-        return Method::gauss;
+    const bool isListed = settings.model.lights == Lights::listed;
+    if (settings.model.scattering == Scattering::multiple) {
+        return paths || isListed || settings.reach ? Method::path : Method::field;
     }
-    return Method::field;
+    return isListed || settings.reach || isFine ? Method::gauss : Method::field;
 }
 
 }  // namespace nightcity

@@ -92,8 +92,9 @@ void checkPaths(const Options& options, const Given& given) {
         for (const char* name : {"--samples", "--orders", "--g"}) {
             require(!given(name), std::string(name) + " is for --method path");
         }
-        require(settings.model.scattering == Scattering::single,
-                "--scattering multiple is for --method path; the others know single");
+        require(settings.model.scattering == Scattering::single ||
+                    settings.method == Method::field,
+                "--scattering multiple is for --method field and path; the others know single");
         require(!isAovNamed(options, kErrorAov),
                 "--aovs glowError is for --method path; the others have no noise");
         return;

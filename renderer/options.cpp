@@ -193,8 +193,8 @@ void addMethod(CLI::App& app, Options& options) {
     addChoice(app, "--method", settings.method,
               "march, quadrature to a tolerance, field or Monte Carlo paths on the device; or in double "
               "precision on the CPU the exact integral, with --subdivisions the same march. Default: "
-              "path for --scattering multiple, gauss for --lights listed, --reach and tolerances "
-              "below 0.01, else field")
+              "gauss for --lights listed, --reach and tolerances below 0.01, but path for these with "
+              "--scattering multiple, and for it with --samples, --orders or --g; else field")
         ->default_str("by the model");
     addCount(app, "--subdivisions", settings.subdivisions, "steps of the march in each media box");
     app.add_option("--tolerance", settings.tolerance,
@@ -272,7 +272,8 @@ bool isMarch(const RenderSettings& settings, const Given& given) {
 
 void fillIn(RenderSettings& settings, const Given& given) {
     if (!given("--method")) {
-        settings.method = defaultMethod(settings);
+        const bool paths = given("--samples") || given("--orders") || given("--g");
+        settings.method = defaultMethod(settings, paths);
     }
     if (isMarch(settings, given) && !given("--model")) {
         const Model paper;

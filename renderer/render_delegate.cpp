@@ -66,6 +66,10 @@ FarFieldSettings farFieldSettings(const RenderSettings& settings, const FlatScen
     }
     far.emitter = settings.model.emitter;
     far.visibility = settings.model.visibility;
+    far.scattering = settings.model.scattering;
+    if (far.scattering == Scattering::multiple) {
+        far.surfaces = settings.model.surfaces;
+    }
     const FarStep step = farStep(settings.tolerance.value_or(kFieldTolerance));
     far.spacing = step.spacing;
     far.spread = step.spread;

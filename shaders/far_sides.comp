@@ -9,55 +9,14 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define NIGHTCITY_KEEP_TABLES
-#include "far_bake.glsl"
-#include "convex_face.glsl"
-#include "occluders.glsl"
+#include "far_places.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
 shared uint solid[kBrickSideWords];
 shared uint wholeBrick;
 
-// Not quite upward, so that it meets no edge of walls that stand on a street grid.
-const vec3 kUpward = vec3(0.00137, 0.00171, 1.0);
 const uint kUndecided = 2u;
-
-bool isInHaze(vec3 place, FarFieldTable field) {
-    Between between = betweenBoxAndBox(place, vec3(0.0), vec3(0.0), vec3(0.0));
-    uint walk = 0u;
-    for (uint index = nextBoxBetween(bakeTable.mediaNodes, walk, between); index != kNone;
-         index = nextBoxBetween(bakeTable.mediaNodes, walk, between)) {
-        FarMedium medium = FarMediumArray(field.media).at[index];
-        if (all(greaterThan(place, medium.lo)) && all(lessThan(place, medium.hi))) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool isInSolid(vec3 place) {
-    if (sceneTable.groundMaterial != kNone && place.z < sceneTable.groundHeight) {
-        return true;
-    }
-    if (sceneTable.occluderNodes == uvec2(0) || place.z >= bakeTable.skyHeight) {
-        return false;
-    }
-    vec3 up = (bakeTable.skyHeight - place.z) * kUpward;
-    Between between = betweenBoxAndBox(place, vec3(0.0), up, vec3(0.0));
-    float nearest = 2.0;
-    bool fromBehind = false;
-    uint walk = 0u;
-    for (uint index = nextOccluder(walk, between); index != kNone;
-         index = nextOccluder(walk, between)) {
-        OccluderFace face = OccluderFaceArray(sceneTable.occluderFaces).at[index];
-        float crossing = faceCrossing(face, place, vec3(0.0), up);
-        if (crossing >= 0.0 && crossing < nearest) {
-            nearest = crossing;
-            fromBehind = dot(face.normal, up) > 0.0;
-        }
-    }
-    return fromBehind;
-}
 
 // Whether a node is of no use to the haze around it. One on a wall belongs to the air before it,
 // one on a roof with no haze above it to nothing. Between the nodes of a large brick there may be

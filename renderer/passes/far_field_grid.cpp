@@ -3,7 +3,6 @@
 #include "passes/far_field_grid.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -28,17 +27,16 @@ static_assert(sizeof(FarLight) == 56);
 static_assert(sizeof(FarEntry) == 12 + 4 * (3 * kWayWords + kFarFaces));
 static_assert(sizeof(FarBakeTable) == 12 * 8 + 32 + 8 * 3 + 4);
 
-constexpr std::uint32_t kFirstBatch = 8;   // bricks
-constexpr double kBatchSeconds = 0.2;      // that a batch should take the device
-constexpr std::uint32_t kBatchGrowth = 4;  // at most, from one to the next
-constexpr std::uint32_t kBatchBricks = 512;
 // Of all that a bake does, when the sides and when the sums are done.
 constexpr double kSidesShare = 0.05;
 constexpr double kSumsShare = 0.97;
+// Of a bake of all orders, when the first is done.
+constexpr double kFirstOrderShare = 0.4;
 constexpr std::uint32_t kFirstCapacity = 512;  // entries a brick
 constexpr std::uint64_t kEntryBytes = 64u << 20;  // of a batch, most
 constexpr float kCellSpacings = 0.5f;  // of the smallest bricks, a cell of the map of heights
 constexpr float kLargestHalf = 65504;
+constexpr float kOrdersRoom = 4;  // of all orders to the first, at most, where it is brightest
 
 float skyHeight(const FlatScene& scene) {
     float height = scene.ground ? scene.ground->height : 0;
@@ -62,6 +60,15 @@ bool hasPolygons(const ConvexFaces& faces) {
         }
     }
     return false;
+}
+
+Model ordersModel(const FarFieldSettings& settings) {
+    Model model;
+    model.lights = Lights::all;
+    model.visibility = settings.visibility;
+    model.emitter = settings.emitter;
+    model.surfaces = settings.surfaces;
+    return model;
 }
 
 }  // namespace
@@ -127,6 +134,11 @@ void FarFieldGrid::syncGeometry(const FlatScene& scene, const FarFieldSettings& 
     uploadLayout(media);
     uploadLights();
     writeTables();
+    if (settings_.scattering == Scattering::multiple) {
+        orders_.syncGeometry(layout_.bricks.size(), ordersModel(settings_));
+    } else {
+        orders_.clear();
+    }
     findSides(sceneTable, progress);
 }
 
@@ -254,7 +266,7 @@ void FarFieldGrid::writeTables() {
     commands_.upload(bakeTable_, &bake_, sizeof bake_);
 }
 
-PushConstants FarFieldGrid::pushOf(VkDeviceAddress sceneTable, Batch batch) const {
+PushConstants FarFieldGrid::pushOf(VkDeviceAddress sceneTable, BrickBatch batch) const {
     PushConstants push{};
     push.scene = addressWords(sceneTable);
     push.frame = addressWords(bakeTable_.address());
@@ -272,7 +284,7 @@ void FarFieldGrid::dispatch(const char* name, const gpu::ComputePipeline& pipeli
 }
 
 std::uint64_t FarFieldGrid::bytes() const {
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = orders_.bytes();
     for (const gpu::Buffer& array : arrays_) {
         bytes += array.bytes();
     }
@@ -285,34 +297,19 @@ std::uint64_t FarFieldGrid::bytes() const {
 }
 
 template <typename Visit>
-void FarFieldGrid::forBatches(const BakeProgress& progress, double from, double to,
-                              Visit&& visit) {
-    using Clock = std::chrono::steady_clock;
-    const auto bricks = static_cast<std::uint32_t>(layout_.bricks.size());
-    std::uint32_t most = kFirstBatch;
-    for (std::uint32_t first = 0; first < bricks;) {
-        const Clock::time_point start = Clock::now();
-        const std::uint32_t done = visit(Batch{first, std::min(bricks - first, most)});
-        const std::chrono::duration<double> spent = Clock::now() - start;
-        first += done;
-        const double next = done * kBatchSeconds / std::max(spent.count(), 1e-6);
-        most = static_cast<std::uint32_t>(
-            std::clamp(next, 1.0, double(std::min(most * kBatchGrowth, kBatchBricks))));
-        if (progress) {
-            progress(from + (to - from) * first / bricks);
-        }
-    }
+void FarFieldGrid::visitBricks(const BakeProgress& progress, BakeShare share, Visit&& visit) {
+    forBatches(static_cast<std::uint32_t>(layout_.bricks.size()), progress, share, visit);
 }
 
 void FarFieldGrid::findSides(VkDeviceAddress sceneTable, const BakeProgress& progress) {
-    forBatches(progress, 0, kSidesShare, [&](Batch batch) {
+    visitBricks(progress, {0, kSidesShare}, [&](BrickBatch batch) {
         dispatch("far sides", sides_, pushOf(sceneTable, batch));
         return batch.count;
     });
 }
 
 void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
-                                   VkDeviceAddress sceneTable, const BakeProgress& progress) {
+                                   SceneAddresses addresses, const BakeProgress& progress) {
     const std::vector<vec3> emission = emissionOf(lights_, scene, windowOn);
     scene.dropPages();
     if (hasSums_) {
@@ -339,21 +336,34 @@ void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::
     }
     hasSums_ = false;  // until all bricks have the new state
     writeTables();
-    forBatches(progress, kSidesShare, kSumsShare,
-               [&](Batch batch) { return bakeBatch(sceneTable, batch); });
-    if (bake_.update == 0) {
-        chooseNodeUnit();
+    const bool isMultiple = settings_.scattering == Scattering::multiple;
+    const double firstEnd = isMultiple ? kFirstOrderShare : 1;
+    bakeFirstOrder(addresses.table, progress, firstEnd);
+    if (isMultiple) {
+        orders_.add({contents_.nearRadius, static_cast<std::uint32_t>(scene.windows.size()),
+                     lights_.strongest, table_.address(), bakeTable_.address(), addresses},
+                    progress, {firstEnd, 1}, passTimes_);
     }
-    forBatches(progress, kSumsShare, 1, [&](Batch batch) {
-        dispatch("far finish", finish_, pushOf(sceneTable, batch));
-        return batch.count;
-    });
     baked_ = emission;
     hasSums_ = true;
 }
 
+// `end`: of all that the bake does.
+void FarFieldGrid::bakeFirstOrder(VkDeviceAddress sceneTable, const BakeProgress& progress,
+                                  double end) {
+    visitBricks(progress, {kSidesShare, kSumsShare * end},
+                [&](BrickBatch batch) { return bakeBatch(sceneTable, batch); });
+    if (bake_.update == 0) {
+        chooseNodeUnit();
+    }
+    visitBricks(progress, {kSumsShare * end, end}, [&](BrickBatch batch) {
+        dispatch("far finish", finish_, pushOf(sceneTable, batch));
+        return batch.count;
+    });
+}
+
 // Returns how many bricks of the batch there was room for: 0 where their entries need more.
-std::uint32_t FarFieldGrid::bakeBatch(VkDeviceAddress sceneTable, Batch batch) {
+std::uint32_t FarFieldGrid::bakeBatch(VkDeviceAddress sceneTable, BrickBatch batch) {
     const auto room = static_cast<std::uint32_t>(entryCounts_.bytes() / sizeof(uvec2));
     batch.count = std::min(batch.count, room);
     const PushConstants push = pushOf(sceneTable, batch);
@@ -388,14 +398,16 @@ std::uint32_t FarFieldGrid::findEntries(const PushConstants& push) {
     return most;
 }
 
-// So that no sum passes what a half holds, whichever windows are on.
+// So that no sum passes what a half holds, whichever windows are on; nor with what other orders
+// bring beside it.
 void FarFieldGrid::chooseNodeUnit() {
     if (layout_.bricks.empty()) {
         return;
     }
     const auto* units = static_cast<const float*>(units_.data());
     const float largest = *std::max_element(units, units + layout_.bricks.size());
-    contents_.nodeUnit = std::ldexp(largest, 31) / kLargestHalf;
+    const float room = settings_.scattering == Scattering::multiple ? kOrdersRoom : 1;
+    contents_.nodeUnit = room * std::ldexp(largest, 31) / kLargestHalf;
     writeTables();
 }
 

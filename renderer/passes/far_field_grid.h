@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +18,10 @@
 #include "gpu/commands.h"
 #include "gpu/compute_pipeline.h"
 #include "gpu/readable_buffer.h"
+#include "passes/brick_batches.h"
 #include "passes/far_layout.h"
 #include "passes/far_lights.h"
+#include "passes/far_orders.h"
 #include "scene/convex_faces.h"
 #include "scene/flat_scene.h"
 #include "settings.h"
@@ -30,6 +31,8 @@ namespace nightcity {
 struct FarFieldSettings {
     Emitter emitter = Emitter::pane;
     Visibility visibility = Visibility::full;
+    Scattering scattering = Scattering::single;
+    Surfaces surfaces = Surfaces::dim;  // with Scattering::multiple: lit ones reflect into the haze
     float spacing = 1;     // of the nodes where they are densest, m
     float nearRadius = 4;  // R of near_far_split.h, m; at least 4 spacings keep 1 %
     bool keepMean = true;  // nodes hold what keeps the mean between them, not what is at them
@@ -41,9 +44,6 @@ struct FarFieldSettings {
     bool operator==(const FarFieldSettings&) const = default;
 };
 
-// Called between dispatches with what is done of a bake, from 0 to 1; what it throws ends the bake.
-using BakeProgress = std::function<void(double)>;
-
 // What the layout of the bricks asks for. The settings must outlive it.
 FarDetail farDetail(const FlatScene& scene, const FarFieldSettings& settings);
 
@@ -53,16 +53,16 @@ std::uint64_t farEntryBytes(std::uint64_t windows);
 class FarFieldGrid {
 public:
     FarFieldGrid(gpu::Device& device, gpu::Commands& commands)
-        : device_(device), commands_(commands) {}
+        : device_(device), commands_(commands), orders_(device, commands) {}
 
     // Lays the field out; the next bake is a full one. `sceneTable` must hold windows, ground
-    // and occluders. Throws DeviceError where the nodes pass the memory that they may take.
+    // and occluders; with Scattering::multiple haze too, and with lit surfaces the light tree. Throws DeviceError where the nodes pass the memory that they may take.
     void syncGeometry(const FlatScene& scene, const FarFieldSettings& settings,
                       VkDeviceAddress sceneTable, const BakeProgress& progress);
     // Bakes the windows that are on, one byte a window; only those that changed where an earlier
     // state was baked: the nodes are then those of a full bake, to the bit.
     void syncWindowState(const FlatScene& scene, std::span<const std::uint8_t> windowOn,
-                         VkDeviceAddress sceneTable, const BakeProgress& progress);
+                         SceneAddresses addresses, const BakeProgress& progress);
 
     // Of the FarFieldTable; 0 before the first syncGeometry.
     VkDeviceAddress tableAddress() const { return table_ ? table_.address() : 0; }
@@ -81,11 +81,6 @@ private:
         const char* name;
         gpu::ComputePipeline pipeline;
     };
-    // Bricks of one batch.
-    struct Batch {
-        std::uint32_t first, count;
-    };
-
     template <typename T>
     uvec2 uploadArray(const char* name, std::span<const T> data);
     uvec2 allocate(const char* name, std::uint64_t bytes);
@@ -94,25 +89,25 @@ private:
     void uploadLayout(std::span<const FarMedium> media);
     void uploadHeights(const ConvexFaces& faces);
     void uploadLights();
-    // Visits all bricks in batches that take the device a moment each: so long no process waits
-    // that is told to stop, and no watchdog bites. A visit returns the bricks that it did.
     template <typename Visit>
-    void forBatches(const BakeProgress& progress, double from, double to, Visit&& visit);
+    void visitBricks(const BakeProgress& progress, BakeShare share, Visit&& visit);
     void findSides(VkDeviceAddress sceneTable, const BakeProgress& progress);
     void makeEntryBuffers(std::uint32_t capacity);
-    std::uint32_t bakeBatch(VkDeviceAddress sceneTable, Batch batch);
+    std::uint32_t bakeBatch(VkDeviceAddress sceneTable, BrickBatch batch);
     std::uint32_t findEntries(const PushConstants& push);
+    void bakeFirstOrder(VkDeviceAddress sceneTable, const BakeProgress& progress, double end);
     void chooseNodeUnit();
     void dispatch(const char* name, const gpu::ComputePipeline& pipeline,
                   const PushConstants& push);
     void writeTables();
-    PushConstants pushOf(VkDeviceAddress sceneTable, Batch batch) const;
+    PushConstants pushOf(VkDeviceAddress sceneTable, BrickBatch batch) const;
 
     gpu::Device& device_;
     gpu::Commands& commands_;
     FarFieldSettings settings_;
     FarLayout layout_;
     FarLights lights_;
+    FarOrders orders_;
     std::vector<vec3> baked_;  // emission that the sums hold, one a light
     bool hasSums_ = false;
     bool hasPipelines_ = false;

@@ -59,8 +59,9 @@ PipelineChoice chooseFor(const GpuScene& scene, const RenderProduct& product,
     choice.method = settings.method;
     choice.media = settings.media;
     choice.aovs = writtenAovs(product, settings);
-    const bool lit =
-        settings.method != Method::march && settings.model.surfaces == Surfaces::lit;
+    const bool lit = settings.method != Method::march &&
+                     settings.model.surfaces == Surfaces::lit &&
+                     (choice.aovs & (kAovBeauty | kAovSurface)) != 0;
     if (!settings.media && settings.method != Method::path && !lit) {
         choice.task = settings.writeOnly ? kTaskWrite : kTaskImages;
         return choice;

@@ -286,7 +286,7 @@ void GpuScene::syncFarField(const FlatScene& scene, std::span<const std::uint8_t
         farField_.syncGeometry(scene, settings, tableAddress(), progress);
         contents_.farField = addressWords(farField_.tableAddress());
     }
-    farField_.syncWindowState(scene, windowOn, tableAddress(), progress);
+    farField_.syncWindowState(scene, windowOn, {tableAddress(), structure()}, progress);
     if (isNew) {  // after the bake, which has no need of it: so the two never share the memory
         uploadNearField(scene, settings);
         uploadMediaPlanes(scene);

@@ -85,7 +85,9 @@ std::uint64_t fieldBytes(const FlatScene& scene, const FarFieldSettings& setting
         scene.windows, [&](const Window& window) { return cells.reaches(window.centre); });
     const std::uint64_t near =
         bytesOf(double(panes), sizeof(NearPane) + 4 + kNodesABox * sizeof(BoxNode));
-    return grid + lights * (sizeof(FarLight) + 2 * sizeof(vec3) + 1) + farEntryBytes(windows) + near +
+    const std::uint64_t orders =
+        settings.scattering == Scattering::multiple ? farOrderBytes(bricks, settings.surfaces) : 0;
+    return grid + orders + lights * (sizeof(FarLight) + 2 * sizeof(vec3) + 1) + farEntryBytes(windows) + near +
            media.size() * 4 * sizeof(FarMedium) + (layout.hasLargeBricks() ? kHeightMapBytes : 0);
 }
 

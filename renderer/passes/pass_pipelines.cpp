@@ -30,9 +30,6 @@ static_assert(sizeof(RayProgress) == 32);
 static_assert(sizeof(Segment) == 28);
 static_assert(sizeof(PassCounters) == 12);
 
-const gpu::Binding kStructure{NIGHTCITY_BINDING_STRUCTURE,
-                              VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1};
-
 std::vector<std::uint32_t> marchConstants(const PipelineChoice& choice) {
     std::vector<std::uint32_t> constants(5);
     constants[NIGHTCITY_CONSTANT_LIGHTS_OUTSIDE] = choice.order == MarchOrder::lights ? 1 : 0;
@@ -52,16 +49,6 @@ std::vector<gpu::Binding> pageBindings(const LightPages& pages) {
              uniform ? 1 : pages.count}};
 }
 
-std::vector<std::uint32_t> modelConstants(const PipelineChoice& choice) {
-    std::vector<std::uint32_t> constants(5);
-    constants[NIGHTCITY_CONSTANT_MEDIA] = choice.media ? 1 : 0;
-    constants[NIGHTCITY_CONSTANT_EMITTER] = emitterConstant(choice.model.emitter);
-    constants[NIGHTCITY_CONSTANT_VISIBILITY] = choice.model.visibility == Visibility::full ? 1 : 0;
-    constants[NIGHTCITY_CONSTANT_LISTED] = choice.model.lights == Lights::listed ? 1 : 0;
-    constants[NIGHTCITY_CONSTANT_LIT] = choice.model.surfaces == Surfaces::lit ? 1 : 0;
-    return constants;
-}
-
 }  // namespace
 
 gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
@@ -75,6 +62,16 @@ gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
     info.pushConstantBytes = sizeof(PushConstants);
     info.constants = std::move(constants);
     return {device, info};
+}
+
+std::vector<std::uint32_t> modelConstants(const Model& model, bool media) {
+    std::vector<std::uint32_t> constants(5);
+    constants[NIGHTCITY_CONSTANT_MEDIA] = media ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_EMITTER] = emitterConstant(model.emitter);
+    constants[NIGHTCITY_CONSTANT_VISIBILITY] = model.visibility == Visibility::full ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_LISTED] = model.lights == Lights::listed ? 1 : 0;
+    constants[NIGHTCITY_CONSTANT_LIT] = model.surfaces == Surfaces::lit ? 1 : 0;
+    return constants;
 }
 
 std::uint32_t emitterConstant(Emitter emitter) {
@@ -93,7 +90,7 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
     : choice(settings) {
     const bool knowsReaders = choice.method == Method::field && !choice.lightsSurfaces();
     const bool records = choice.task == kTaskRecords;
-    surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructure},
+    surface = makePipeline(device, "surface", kSurfaceSpirv, {kStructureBinding},
                            {choice.task, records && !knowsReaders ? kAllAovs : choice.aovs});
     if (choice.task != kTaskRecords) {
         return;
@@ -104,7 +101,7 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
         makeGauss(device);
     } else if (choice.method == Method::field) {
         makeLit(device);
-        mediaIds = makePipeline(device, "media ids", kMediaIdsSpirv, {kStructure});
+        mediaIds = makePipeline(device, "media ids", kMediaIdsSpirv, {kStructureBinding});
     } else {
         makeMarch(device);
     }
@@ -113,32 +110,32 @@ PassPipelines::PassPipelines(gpu::Device& device, const PipelineChoice& settings
 }
 
 void PassPipelines::makeMarch(gpu::Device& device) {
-    traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
+    traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructureBinding});
     inScatter = makePipeline(device, "march", kMarchSpirv, pageBindings(choice.lights),
                              marchConstants(choice));
 }
 
 void PassPipelines::makeLit(gpu::Device& device) {
     if (choice.lightsSurfaces()) {
-        lit = makePipeline(device, "lit", kLitSpirv, {}, modelConstants(choice));
+        lit = makePipeline(device, "lit", kLitSpirv, {}, modelConstants(choice.model, choice.media));
     }
 }
 
 void PassPipelines::makeGauss(gpu::Device& device) {
-    traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructure});
+    traverse = makePipeline(device, "traverse", kTraverseSpirv, {kStructureBinding});
     makeLit(device);
     if (choice.readsPages()) {
         inScatter = makePipeline(device, "gauss", kGaussPointsSpirv, pageBindings(choice.lights),
                                  marchConstants(choice));
     } else {
-        std::vector<std::uint32_t> constants = modelConstants(choice);
+        std::vector<std::uint32_t> constants = modelConstants(choice.model, choice.media);
         constants.push_back(choice.uniformHaze ? 1 : 0);
         inScatter = makePipeline(device, "gauss", kGaussSpirv, {}, constants);
     }
 }
 
 void PassPipelines::makePath(gpu::Device& device) {
-    path = makePipeline(device, "path", kPathSpirv, {kStructure}, modelConstants(choice));
+    path = makePipeline(device, "path", kPathSpirv, {kStructureBinding}, modelConstants(choice.model, choice.media));
 }
 
 void PassPipelines::bind(const GpuScene& scene) {

@@ -22,6 +22,13 @@ gpu::ComputePipeline makePipeline(gpu::Device& device, const char* name,
                                   std::vector<gpu::Binding> bindings,
                                   std::vector<std::uint32_t> constants = {});
 
+// The scene's structure, of passes that send rays.
+inline constexpr gpu::Binding kStructureBinding{NIGHTCITY_BINDING_STRUCTURE,
+                                                VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1};
+
+// NIGHTCITY_CONSTANT_MEDIA to NIGHTCITY_CONSTANT_LIT.
+std::vector<std::uint32_t> modelConstants(const Model& model, bool media);
+
 // kEmitterIsotropic and so on.
 std::uint32_t emitterConstant(Emitter emitter);
 

@@ -91,8 +91,13 @@ TEST(Options, TheModelChoosesTheMethod) {
     EXPECT_EQ(method({"--lights", "listed"}), Method::gauss);
     EXPECT_EQ(method({"--reach", "20"}), Method::gauss);
     EXPECT_EQ(method({"--tolerance", "0.001"}), Method::gauss);
-    EXPECT_EQ(method({"--model", "full"}), Method::path);
-    EXPECT_EQ(method({"--scattering", "multiple"}), Method::path);
+    EXPECT_EQ(method({"--model", "full"}), Method::field);
+    EXPECT_EQ(method({"--scattering", "multiple", "--tolerance", "0.005"}), Method::field);
+    EXPECT_EQ(method({"--scattering", "multiple", "--samples", "16"}), Method::path);
+    EXPECT_EQ(method({"--scattering", "multiple", "--orders", "2-"}), Method::path);
+    EXPECT_EQ(method({"--scattering", "multiple", "--g", "0.5"}), Method::path);
+    EXPECT_EQ(method({"--scattering", "multiple", "--lights", "listed"}), Method::path);
+    EXPECT_EQ(method({"--scattering", "multiple", "--reach", "20"}), Method::path);
 }
 
 TEST(Options, TheMarchIsOfThePapersModel) {
@@ -125,8 +130,8 @@ TEST(Options, UnknownOptionsNameTheNearestOne) {
 }
 
 TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
-    for (const char* method : {"march", "gauss", "field"}) {
-        EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--method", method, "--scattering",
+    for (const char* method : {"march", "gauss"}) {
+        EXPECT_REFUSED("--method field and path", "s", "-o", "a.exr", "--method", method, "--scattering",
                        "multiple");
     }
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--samples", "8");
