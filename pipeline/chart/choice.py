@@ -21,11 +21,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nightcity.chart.errors import relative_errors
 from nightcity.chart.foretell import PERCENTILE, paths_needed
 from nightcity.chart.runs import PixelTable, read_pixels, write_pixels
-from nightcity.chart.settings import FULL, PAPER, SINGLE, UNOCCLUDED, Model
+from nightcity.chart.settings import FULL, MULTIPLE, PAPER, SINGLE, UNOCCLUDED, Model
 from nightcity.errors import UsageError
 from nightcity.render import run_renderer
 
@@ -51,6 +52,8 @@ CANDIDATES = (
     Candidate(UNOCCLUDED, "gauss", 1e-4, 0.1),
     Candidate(SINGLE, "field", 1e-3, 0.1),
     Candidate(SINGLE, "gauss", 1e-4, 0.1),
+    Candidate(MULTIPLE, "field", 1e-3, 0.1),
+    Candidate(FULL, "field", 1e-3, 0.1),
 )
 # The field keeps its tolerance in most pixels and not beside roof edges: less is asked of it.
 _FIELD_FLOOR = 0.05
@@ -73,19 +76,17 @@ def choose(scene: Path, view: Sequence[str], tolerance: float, against: Model = 
     if not 1e-4 <= tolerance <= 1:
         raise UsageError("--model auto: --tolerance must lie from 0.0001 to 1")
     with tempfile.TemporaryDirectory() as name:
-        sampler = _Sampler(scene, view, Path(name))
-        truth = sampler.exact(SINGLE, tolerance)
-        glow = truth.glow
-        if against == FULL:
-            glow = glow + sampler.paths(FULL, _TRUTH_SAMPLES, "--orders", "2-").glow
+        sampler = _Sampler(scene, view, Path(name), tolerance)
+        glow = sampler.glow(against)
         if not glow.any():
             return Choice(_options(CANDIDATES[0], 0.1), "no haze is lit in this shot")
         errors: dict[Model, float] = {}
         for candidate in CANDIDATES:
             model = candidate.model
+            if against == SINGLE and model.scattering == "multiple":
+                continue
             if model not in errors:
-                exact = truth if model == SINGLE else sampler.exact(model, tolerance)
-                off = relative_errors(exact.glow, glow)
+                off = relative_errors(sampler.glow(model), glow)
                 errors[model] = float(np.percentile(off, PERCENTILE))
             left = _left(candidate, tolerance - errors[model])
             if left is not None:
@@ -126,18 +127,26 @@ def _percent(share: float) -> str:
 
 
 class _Sampler:
-    """Values of the same few pixels, by any model."""
+    """Values of the same few pixels, by any model; ``tolerance``: that the choice is for."""
 
-    def __init__(self, scene: Path, view: Sequence[str], work: Path) -> None:
+    def __init__(self, scene: Path, view: Sequence[str], work: Path, tolerance: float) -> None:
         self._scene, self._view, self._work = scene, view, work
+        self._tolerance = tolerance
         chosen = ("--model", "paper", "--method", "reference", "--subdivisions", "1")
         pixels = self._render(chosen, str(PIXELS)).pixels
         self._pixels = str(write_pixels(pixels, work / "chosen.csv"))
+        self._known: dict[Model, NDArray[np.float64]] = {}
 
-    def exact(self, model: Model, tolerance: float) -> PixelTable:
-        """The judge, exact to a tenth of what is asked."""
-        judge = ("--method", "reference", "--tolerance", f"{min(tolerance, 0.1):g}")
-        return self._render((*model.options, *judge), self._pixels)
+    def glow(self, model: Model) -> NDArray[np.float64]:
+        """(N, 3): the judge, exact to a tenth of the tolerance, and paths of other orders."""
+        if model not in self._known:
+            if model.scattering == "single":
+                judge = ("--method", "reference", "--tolerance", f"{min(self._tolerance, 0.1):g}")
+                glow = self._render((*model.options, *judge), self._pixels).glow
+            else:
+                glow = self.glow(SINGLE) + self.paths(model, _TRUTH_SAMPLES, "--orders", "2-").glow
+            self._known[model] = glow
+        return self._known[model]
 
     def paths(self, model: Model, samples: int, *more: str) -> PixelTable:
         """Monte Carlo."""

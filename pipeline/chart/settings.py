@@ -90,7 +90,9 @@ def field(tolerance: float, *more: str, model: Model = SINGLE, note: str = "") -
     """The grid of far light and the near windows."""
     knobs = ("--tolerance", f"{tolerance:g}", *more)
     named = note if model == SINGLE else f", {model.name}"
-    return Point(f"field {tolerance:g}{named}", "field", model, knobs, work=20, frames=3)
+    lit = model.surfaces == "lit"  # by gauss, in every frame
+    work, frames = (100, 1) if lit else (20, 3)
+    return Point(f"field {tolerance:g}{named}", "field", model, knobs, work, frames)
 
 
 def path(model: Model, samples: int) -> Point:
@@ -112,6 +114,7 @@ QUICK_POINTS = (
     field(0.1, model=UNOCCLUDED),
     field(0.1),
     field(0.03),
+    field(0.1, model=MULTIPLE),
     path(FULL, 4),
 )
 FULL_POINTS = (
@@ -124,6 +127,8 @@ FULL_POINTS = (
     *(gauss(SINGLE, tolerance) for tolerance in (0.1, 0.01)),
     *(field(0.03, model=model) for model in (UNOCCLUDED, ISOTROPIC, LAMBERTIAN)),
     *(field(tolerance) for tolerance in (0.1, 0.03, 0.01, 0.003)),
+    *(field(tolerance, model=MULTIPLE) for tolerance in (0.1, 0.03, 0.01)),
+    *(field(tolerance, model=FULL) for tolerance in (0.1, 0.03)),
     field(0.03, "--glow-rays", "all", note=", every ray"),
     field(0.03, *_SUPERSAMPLED, note=", 4 rays a pixel"),
     *(path(FULL, samples) for samples in (4, 16, 64)),

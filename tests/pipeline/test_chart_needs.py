@@ -220,6 +220,18 @@ def test_auto_chooses_and_says_so(nightcity: Command, tmp_path: Path) -> None:
     assert spec.getattribute("nightcity:emitter") == "pane"
 
 
+def test_auto_needs_no_paths_for_the_full_model(nightcity: Command, tmp_path: Path) -> None:
+    stage, image = tmp_path / "thick.usda", tmp_path / "auto.exr"
+    nightcity("generate", "--preset", "paper-1x1", "--extinction", 0.05, "-o", stage)
+    render = ("render", stage, "--camera", CAMERA, "--size", "48x27", "--model", "auto")
+    done = nightcity(*render, "--tolerance", "0.1", "--aovs", "glow", "-o", image)
+    assert "by field at 0.1" in done.stderr
+    file = OpenImageIO.ImageInput.open(str(image))
+    spec = file.spec()
+    file.close()
+    assert spec.getattribute("nightcity:scattering") == "multiple"
+
+
 def test_auto_refuses_what_it_decides(nightcity: Command, tmp_path: Path) -> None:
     render = ("render", small_stage(tmp_path), "--model", "auto", "-o", tmp_path / "a.exr")
     assert "--tolerance" in nightcity(*render, code=2).stderr
