@@ -4,7 +4,8 @@
 
 The errors are numerical (design section 5): the judge computes the same model. What has a
 tolerance is held against it; Monte Carlo is held against its own standard error, and the field's
-estimate of its error against that error.
+estimate of its error against that error. Orders of scattering that the judge does not know are
+those of paths with another seed; their noise is stated beside the field's error.
 """
 
 from __future__ import annotations
@@ -52,7 +53,9 @@ class AccuracyOptions:
     size: str
     pixels: int
     town_pixels: int
-    samples: int
+    scattering: str
+    surfaces: str
+    samples: int  # of path, or where scattering is multiple of the truth
     judge_tolerance: float | None  # none: as auto_judge_tolerance has it
     kept: Path | None  # where the judge's results stay; none: nowhere
 
@@ -61,6 +64,20 @@ class AccuracyOptions:
             raise UsageError("--pixels and --town-pixels: give at least 1")
         if not all(0 < tolerance <= 1 for tolerance in self.tolerances):
             raise UsageError("--tolerances must lie above 0 and at most at 1")
+        if self.scattering == "multiple" and set(self.methods) != {"field"}:
+            raise UsageError("--scattering multiple is for --methods field: paths are the truth")
+        if self.scattering == "single" and self.surfaces == "lit":
+            raise UsageError("--surfaces lit changes the glow with --scattering multiple only")
+
+    def model(self, emitter: str) -> list[str]:
+        """Renderer options of the judge's model, which is of the first order."""
+        model = ["--lights", self.lights, "--visibility", self.visibility]
+        return [*model, "--emitter", emitter]
+
+    @property
+    def orders(self) -> list[str]:
+        """Renderer options of what the judge does not know."""
+        return ["--scattering", self.scattering, "--surfaces", self.surfaces]
 
     def auto_judge_tolerance(self) -> float:
         """What the judge is asked for: it converges to a tenth of that by itself.
@@ -107,25 +124,50 @@ def _compare_scene(
         view = View(scene, camera, options.size)
         pixels = choose_pixels(view, count, work)
         for emitter in options.emitters:
-            model = ["--lights", options.lights, "--visibility", options.visibility]
-            model += ["--emitter", emitter]
+            model = options.model(emitter)
             # The methods first: what does not work is said before the judge takes minutes.
             measured = []
             for line in _lines(options):
                 say(f"{view}: {emitter}, {line.name}")
-                measured.append((line, measure(view, pixels, [*model, *line.options], work)))
-            tolerance = options.judge_tolerance or options.auto_judge_tolerance()
-            judge = [*model, "--method", "reference", "--tolerance", f"{tolerance:g}"]
-            truth = keeper.measure(view, pixels, judge, work)
+                asked = [*model, *options.orders, *line.options]
+                measured.append((line, measure(view, pixels, asked, work)))
+            truth, noise = _truth(view, emitter, pixels, options, keeper, work)
             for line, first in measured:
                 found, anew = first, 0
                 if line.tolerance is None:
-                    found, anew = _second_look(view, model, first, truth.glow, options, work)
-                cells, good = compare(line, found, truth.glow)
+                    found, anew = _second_look(view, model, first, truth, options, work)
+                cells, good = compare(line, found, truth)
                 if anew:
                     cells[-1] += f" ({anew} pixels anew, {_MORE_PATHS} times the paths)"
+                if noise:
+                    cells[-1] += f"; the truth's noise {percent(noise)}"
                 head = f"| {scene.name} | {camera} | {emitter} | {line.name} |"
                 yield f"{head} {' | '.join(cells)} |", good
+
+
+def _truth(
+    view: View,
+    emitter: str,
+    pixels: NDArray[np.int64],
+    options: AccuracyOptions,
+    keeper: Keeper,
+    work: Path,
+) -> tuple[NDArray[np.float64], float]:
+    """Glow (N, 3), and the median pixel's relative standard error."""
+    model = options.model(emitter)
+    tolerance = options.judge_tolerance or options.auto_judge_tolerance()
+    judge = [*model, "--method", "reference", "--tolerance", f"{tolerance:g}"]
+    glow = keeper.measure(view, pixels, judge, work).glow
+    if options.scattering == "single":
+        return glow, 0.0
+    paths = ["--method", "path", "--orders", "2-", "--samples", str(options.samples)]
+    higher = keeper.measure(view, pixels, [*model, *options.orders, *paths, "--seed", "1"], work)
+    assert higher.glow_error is not None  # Monte Carlo always states it
+    glow = glow + higher.glow
+    lit = glow[:, _GREEN] > 0
+    if not lit.any():
+        return glow, 0.0
+    return glow, float(np.median(higher.glow_error[lit, _GREEN] / glow[lit, _GREEN]))
 
 
 def _second_look(
@@ -167,7 +209,7 @@ def _lines(options: AccuracyOptions) -> list[Line]:
             continue
         for tolerance in options.tolerances:
             taken = ("--method", method, "--tolerance", f"{tolerance:g}")
-            taken += ("--aovs", "glow,surface,error") if method == "field" else ()
+            taken += ("--aovs", "glow,error") if method == "field" else ()
             lines.append(Line(method, f"{method} {tolerance:g}", taken, tolerance))
     return lines
 

@@ -73,10 +73,15 @@ def _accuracy(tables: argparse._SubParsersAction) -> None:
     )
     table.add_argument("--lights", default="all", choices=("listed", "all"))
     table.add_argument("--visibility", default="full", choices=("none", "full"))
+    table.add_argument("--scattering", default="single", choices=("single", "multiple"))
+    table.add_argument("--surfaces", default="dim", choices=("dim", "lit"))
     table.add_argument("--pixels", type=int, default=2000, help="of generated cities (%(default)s)")
     table.add_argument("--town-pixels", type=int, default=300, help="of towns (%(default)s)")
     table.add_argument(
-        "--samples", type=int, default=16384, help="paths a pixel of path (%(default)s)"
+        "--samples",
+        type=int,
+        default=16384,
+        help="paths a pixel of path, with --scattering multiple of the truth (%(default)s)",
     )
     table.add_argument(
         "--judge-tolerance",
@@ -101,6 +106,8 @@ def _accuracy(tables: argparse._SubParsersAction) -> None:
             options.size,
             options.pixels,
             options.town_pixels,
+            options.scattering,
+            options.surfaces,
             options.samples,
             options.judge_tolerance,
             options.judged,

@@ -62,13 +62,12 @@ def time_frames(
 
 @dataclass(frozen=True)
 class PixelTable:
-    """Pixels (N, 2), their glow (N, 3), W m^-2 sr^-1, the surfaces seen through the haze (N, 3);
-    of Monte Carlo the standard error of the glow (N, 3), of a method that keeps a ledger its
-    estimate of the relative error (N,), where it was asked for."""
+    """Pixels (N, 2), their glow (N, 3), W m^-2 sr^-1; of Monte Carlo the standard error of the
+    glow (N, 3), of a method that keeps a ledger its estimate of the relative error (N,), where it
+    was asked for."""
 
     pixels: NDArray[np.int64]
     glow: NDArray[np.float64]
-    surface: NDArray[np.float64]
     glow_error: NDArray[np.float64] | None
     estimate: NDArray[np.float64] | None = None
 
@@ -80,14 +79,13 @@ class PixelTable:
         return PixelTable(
             np.concatenate([table.pixels for table in tables]),
             np.concatenate([table.glow for table in tables]),
-            np.concatenate([table.surface for table in tables]),
             np.concatenate(errors) if errors else None,
             np.concatenate(estimates) if estimates else None,
         )
 
 
 def read_pixels(table: Path) -> PixelTable:
-    """A table that nightcity-render wrote for --pixels, with all its channels."""
+    """A table that nightcity-render wrote for --pixels, with its glow."""
     with table.open(newline="") as lines:
         rows = list(csv.DictReader(lines))
     if not rows:
@@ -99,7 +97,6 @@ def read_pixels(table: Path) -> PixelTable:
     return PixelTable(
         np.array([[int(row["x"]), int(row["y"])] for row in rows]),
         channels("glow"),
-        channels("surface"),
         channels("glowError") if "glowError.R" in rows[0] else None,
         np.array([float(row["error.Y"]) for row in rows]) if "error.Y" in rows[0] else None,
     )

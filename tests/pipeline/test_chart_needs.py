@@ -84,7 +84,7 @@ class Looks:
         glow = self.truth_image[pixels[:, 1], pixels[:, 0]]
         sigma = self.error / np.sqrt(samples) * glow
         random = np.random.default_rng(len(self.samples))
-        return PixelTable(pixels, glow + sigma * random.normal(size=(len(glow), 1)), glow, sigma)
+        return PixelTable(pixels, glow + sigma * random.normal(size=(len(glow), 1)), sigma)
 
     def truth(self, model: object, pixels: np.ndarray, samples: int) -> Values:
         raise AssertionError("the truth has no noise here")
