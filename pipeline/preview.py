@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from nightcity.display import read_display
 from nightcity.errors import NightcityError, SceneError
+from nightcity.png_file import write_png
 from nightcity.whole_file import whole_file
 
 _MOST_THUMBNAILS = 100
@@ -44,7 +45,7 @@ def contact_sheet(frames: list[Path], sheet: Path, exposure: float) -> str:
         y, x = _GAP + i // columns * (height + _GAP), _GAP + i % columns * (width + _GAP)
         pixels[y : y + thumbnail.shape[0], x : x + thumbnail.shape[1]] = thumbnail
     with whole_file(sheet) as pending:
-        _write_png(pending, pixels)
+        write_png(pending, pixels)
     return f"wrote {sheet}: {len(chosen)} of {len(frames)} frames"
 
 
@@ -57,15 +58,6 @@ def _thumbnail(pixels: NDArray[np.float32], width: int) -> NDArray[np.float32]:
     roi = OpenImageIO.ROI(0, width, 0, height, 0, 1, 0, 3)
     small = OpenImageIO.ImageBufAlgo.resize(image, filtername="box", roi=roi)
     return small.get_pixels("float").reshape(height, width, 3)
-
-
-def _write_png(path: Path, pixels: NDArray[np.float32]) -> None:
-    spec = OpenImageIO.ImageSpec(pixels.shape[1], pixels.shape[0], 3, "uint8")
-    spec.attribute("oiio:ColorSpace", "sRGB")
-    out = OpenImageIO.ImageOutput.create("png")
-    done = out.open(str(path), spec) and out.write_image(pixels) and out.close()
-    if not done:
-        raise OSError(f"{path}: {out.geterror()}")
 
 
 def movie(frames: list[Path], target: Path, scene: Path, exposure: float) -> str:

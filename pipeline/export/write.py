@@ -12,7 +12,7 @@ import xxhash
 from numpy.typing import NDArray
 
 from nightcity import __version__
-from nightcity.errors import SceneError
+from nightcity.errors import NightcityError
 from nightcity.export.records import ALIGNMENT, FORMAT, RECORDS, VERSION, fields
 from nightcity.whole_file import whole_files
 
@@ -26,7 +26,7 @@ def write_scene(
 
     arrays: every array of RECORDS, of its type. manifest: what docs/scene_format.md lists beside
     the arrays and the constants. An earlier scene in the folder is replaced only once the new one
-    is complete; a failure leaves the earlier one. Raises SceneError where writing fails.
+    is complete; a failure leaves the earlier one. Raises NightcityError where writing fails.
     """
     try:
         # Without its manifest the folder holds no scene: an interrupted exchange is no mixture.
@@ -34,7 +34,9 @@ def write_scene(
             table, binary = _write_binary(binary_file, arrays)
             json_file.write_text(_manifest_text(manifest, table, binary), encoding="utf-8")
     except OSError as error:
-        raise SceneError(f"{folder}: the flat scene cannot be written: {error.strerror}") from error
+        raise NightcityError(
+            f"{folder}: the flat scene cannot be written: {error.strerror}"
+        ) from error
     return {name: (folder / name).stat().st_size for name in (_JSON, _BINARY)}
 
 

@@ -172,14 +172,19 @@ def _task(parts: argparse._SubParsersAction) -> None:
     command.add_argument("--number", type=int, default=0, help="of the task, from 0")
 
     def run(options: argparse.Namespace) -> int:
-        _need("openjd.model")
+        _need("openjd.model", "yaml")
+        from nightcity.farm.check import CHECKED, name_unchecked
         from nightcity.farm.job import read_job, step_named
         from nightcity.farm.task import run_here
+        from nightcity.farm.template import CHECK
 
         step = step_named(read_job(options.job, _values(options)), options.step, options.job)
         if not 0 <= options.number < len(step.tasks):
             raise UsageError(f"step {step.name} has {len(step.tasks)} tasks, from 0")
-        return run_here(step.tasks[options.number].command, options.retries, os.environ)
+        code = run_here(step.tasks[options.number].command, options.retries, os.environ)
+        if step.name == CHECK and code not in CHECKED:
+            name_unchecked(step)
+        return code
 
     command.set_defaults(run=run)
 

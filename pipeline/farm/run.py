@@ -11,6 +11,7 @@ import uuid
 from collections.abc import Iterator
 
 from nightcity.errors import DeviceError, NightcityError, SceneError, UsageError
+from nightcity.farm.check import CHECKED, name_unchecked
 from nightcity.farm.job import FarmStep, Task
 from nightcity.farm.task import HOPELESS, TaskFailed, is_stopped, run_command, stop_commands
 from nightcity.farm.template import CHECK, EXPORT
@@ -69,8 +70,12 @@ def _run_steps(client: object, steps: list[FarmStep], run: str, retries: int) ->
         broken = next((name for name in step.after if name in failures), None)
         if broken and not (step.name == CHECK and EXPORT not in failures):
             failures[step.name] = failures[broken]
+            if step.name == CHECK:
+                name_unchecked(step)
             continue
         failed = _run_step(client, step, run, retries)
+        if failed and step.name == CHECK and failed[0] not in CHECKED:
+            name_unchecked(step)
         if failed:
             failures[step.name] = failed
         elif broken:
@@ -93,6 +98,8 @@ def _run_step(client: object, step: FarmStep, run: str, retries: int) -> tuple[i
     for done, future in enumerate(distributed.as_completed(futures), 1):
         task = futures[future]
         code, said = _outcome(future)
+        # Else Dask runs it again where the worker that keeps its result dies.
+        future.release()
         if code:
             failed = code, f"{task.label}: {said.splitlines()[-1] if said else code}"
             print(f"failed: {task.label} (exit code {code})", flush=True)

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from nightcity.errors import NightcityError
+from nightcity.farm.check import CHECKED, images
 from nightcity.farm.job import FarmStep, step_named
 from nightcity.farm.template import CHECK, EXPORT, FRAMES
-from nightcity.frames import frame_file, parse_frames
+from nightcity.frames import parse_frames
 
 
 @dataclass(frozen=True)
@@ -64,14 +65,12 @@ def _missing_frames(check: FarmStep) -> set[int]:
     """The frames whose images are not there, by the job's own check."""
     command = check.tasks[0].command
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode not in (0, 1):
+    if done.returncode not in CHECKED:
         raise NightcityError(f"{CHECK}: {done.stderr.strip()}")
     missing = set(re.findall(r"^missing (.*)$", done.stdout, re.MULTILINE))
     if done.returncode and not missing:
         raise NightcityError(f"{CHECK}: {done.stderr.strip()}")
-    pattern = Path(command[command.index("-o") + 1])
-    frames = parse_frames(command[command.index("--frames") + 1])
-    return {frame for frame in frames if str(frame_file(pattern, frame)) in missing}
+    return {frame for frame, image in images(check).items() if str(image) in missing}
 
 
 def _largest_array() -> int:

@@ -11,12 +11,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO
 from numpy.typing import NDArray
 from pxr import Gf, Sdf, UsdShade
 
 from nightcity.city.model import Material
-from nightcity.errors import NightcityError
+from nightcity.png_file import write_png
 from nightcity.stage.attributes import PrimWriter
 
 _COLOR, _FLOAT, _TOKEN = (
@@ -61,19 +60,9 @@ def write_emissive_material(looks: PrimWriter, name: str, color: NDArray[np.floa
 
 
 def write_texture(material: Material, folder: Path) -> Path:
-    """Write the material's texture as ``folder/NAME.png`` and return that path."""
+    """Write the material's texture as ``folder/NAME.png`` and return that path. Raises OSError."""
     path = folder / f"{material.name}.png"
-    rows, columns, channels = material.texture.shape
-    output = OpenImageIO.ImageOutput.create(str(path))
-    spec = OpenImageIO.ImageSpec(columns, rows, channels, "uint8")
-    spec.attribute("oiio:ColorSpace", "sRGB")
-    if not (
-        output
-        and output.open(str(path), spec)
-        and output.write_image(np.ascontiguousarray(material.texture))
-        and output.close()
-    ):
-        raise NightcityError(f"cannot write {path}: {output.geterror() if output else ''}")
+    write_png(path, material.texture)
     return path
 
 

@@ -153,7 +153,8 @@ def _save(layer: Sdf.Layer, path: Path) -> None:
     try:
         written = layer.Export(str(path))
     except Tf.ErrorException as error:
-        raise OSError(f"{path.name}: {error}") from error
+        first = str(error).strip().splitlines()[0]  # a line for each block that was not written
+        raise OSError(f"{path.name}: {first.strip()}") from error
     if not written:
         raise OSError(f"{path.name}: USD could not write it")
 
