@@ -15,9 +15,9 @@ inline constexpr Model kSingleModel{.lights = Lights::all,
                                     .scattering = Scattering::single,
                                     .surfaces = Surfaces::dim};
 
-// The fastest method that knows the model and holds the tolerance; `paths`: options that only paths
-// know are given. What it says of a pixel must not depend on how many are asked for: neither frames
-// nor pixels nor tiles decide.
+// The fastest method that knows the model and holds the tolerance; `paths`: something that only
+// paths know is asked for. What it says of a pixel must not depend on how many are asked for:
+// neither frames nor pixels nor tiles decide.
 inline Method defaultMethod(const RenderSettings& settings, bool paths) {
     const bool isFine = settings.tolerance.value_or(kFieldTolerance) < kFieldTolerance;
     const bool isListed = settings.model.lights == Lights::listed;

@@ -85,11 +85,13 @@ bool isAovNamed(const Options& options, std::string_view name) {
                                options.aovs->end();
 }
 
+constexpr const char* kPathOptions[] = {"--samples", "--orders", "--g"};
+
 // What only the path tracer knows, and what it does not.
 void checkPaths(const Options& options, const Given& given) {
     const RenderSettings& settings = options.settings;
     if (settings.method != Method::path) {
-        for (const char* name : {"--samples", "--orders", "--g"}) {
+        for (const char* name : kPathOptions) {
             require(!given(name), std::string(name) + " is for --method path");
         }
         require(settings.model.scattering == Scattering::single ||
@@ -195,6 +197,10 @@ void checkMethod(const Options& options, const Given& given) {
 }
 
 }  // namespace
+
+bool asksForPaths(const Options& options, const Given& given) {
+    return std::ranges::any_of(kPathOptions, given) || isAovNamed(options, kErrorAov);
+}
 
 void checkCombinations(const Options& options, const Given& given) {
     if (options.listDevices) {

@@ -193,8 +193,9 @@ void addMethod(CLI::App& app, Options& options) {
     addChoice(app, "--method", settings.method,
               "march, quadrature to a tolerance, field or Monte Carlo paths on the device; or in double "
               "precision on the CPU the exact integral, with --subdivisions the same march. Default: "
-              "gauss for --lights listed, --reach and tolerances below 0.01, but path for these with "
-              "--scattering multiple, and for it with --samples, --orders or --g; else field")
+              "gauss for --lights listed, --reach and tolerances below 0.01; of --scattering "
+              "multiple path for --lights listed and --reach, and with --samples, --orders, --g or "
+              "--aovs glowError; else field")
         ->default_str("by the model");
     addCount(app, "--subdivisions", settings.subdivisions, "steps of the march in each media box");
     app.add_option("--tolerance", settings.tolerance,
@@ -270,10 +271,10 @@ bool isMarch(const RenderSettings& settings, const Given& given) {
            (settings.method == Method::reference && given("--subdivisions"));
 }
 
-void fillIn(RenderSettings& settings, const Given& given) {
+void fillIn(Options& options, const Given& given) {
+    RenderSettings& settings = options.settings;
     if (!given("--method")) {
-        const bool paths = given("--samples") || given("--orders") || given("--g");
-        settings.method = defaultMethod(settings, paths);
+        settings.method = defaultMethod(settings, asksForPaths(options, given));
     }
     if (isMarch(settings, given) && !given("--model")) {
         const Model paper;
@@ -330,7 +331,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv, std::ostr
     }
     const Given given = [&](const char* name) { return app.count(name) > 0; };
     RenderSettings& settings = options.settings;
-    fillIn(settings, given);
+    fillIn(options, given);
     checkCombinations(options, given);
     const bool toTolerance = settings.method != Method::path && !isMarch(settings, given);
     if (toTolerance && !settings.tolerance) {

@@ -96,6 +96,7 @@ TEST(Options, TheModelChoosesTheMethod) {
     EXPECT_EQ(method({"--scattering", "multiple", "--samples", "16"}), Method::path);
     EXPECT_EQ(method({"--scattering", "multiple", "--orders", "2-"}), Method::path);
     EXPECT_EQ(method({"--scattering", "multiple", "--g", "0.5"}), Method::path);
+    EXPECT_EQ(method({"--scattering", "multiple", "--aovs", "glow,glowError"}), Method::path);
     EXPECT_EQ(method({"--scattering", "multiple", "--lights", "listed"}), Method::path);
     EXPECT_EQ(method({"--scattering", "multiple", "--reach", "20"}), Method::path);
 }
@@ -131,8 +132,8 @@ TEST(Options, UnknownOptionsNameTheNearestOne) {
 
 TEST(Options, EveryMethodRefusesWhatItDoesNotKnow) {
     for (const char* method : {"march", "gauss"}) {
-        EXPECT_REFUSED("--method field and path", "s", "-o", "a.exr", "--method", method, "--scattering",
-                       "multiple");
+        EXPECT_REFUSED("--method field and path", "s", "-o", "a.exr", "--method", method,
+                       "--scattering", "multiple");
     }
     EXPECT_REFUSED("--method path", "s", "-o", "a.exr", "--samples", "8");
     for (const char* method : {"path", "gauss", "reference"}) {
