@@ -14,7 +14,6 @@ layout(local_size_x = kGroupSize) in;
 
 layout(constant_id = NIGHTCITY_CONSTANT_FAR_MEAN) const uint kKeepMean = 1u;
 
-const float kLargestHalf = 65504.0;
 // Shares of differences between nodes that straight interpolation may be off. A parabola is off by
 // 1 / 12 of its second difference at nodes and 1 / 24 between them; where shadows begin it is
 // more, and the fourth difference tells; at walls, where there is none, the second stands for it.

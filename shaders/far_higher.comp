@@ -11,7 +11,6 @@
 
 layout(local_size_x = kGroupSize) in;
 
-const float kLargestHalf = 65504.0;
 // Share of higher orders that a node may be off by; as measured in the paper's city.
 const float kErrorOfOrders = 0.03;
 

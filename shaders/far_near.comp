@@ -10,18 +10,15 @@
 // As path.comp: glslang 12 crashes while it spreads `precise` through this program.
 #define precise
 #define NIGHTCITY_KEEP_TABLES
+#include "direct_light.glsl"
 #include "order_cells.glsl"
-#include "path_ends.glsl"
+#include "surface_shading.glsl"
 #include "transport/near_far_split.h"
+#include "transport/phase.h"
 
 layout(local_size_x = kGroupSize) in;
 
 const uint kStepsOfRadius = 8u;
-const float kGoldenRatio = 0.6180339887;
-
-bool isOn(uint window) {
-    return (UintArray(sceneTable.windowOn).at[window >> 5] >> (window & 31u) & 1u) != 0u;
-}
 
 // Of a window's light, from its points where it is a pane, else from its centre.
 Ray emitted(Window window, uint number, uint count, inout RandomStream random) {
@@ -38,13 +35,23 @@ Ray emitted(Window window, uint number, uint count, inout RandomStream random) {
     return Ray(window.centre + at.x * window.halfU + at.y * window.halfV, normalize(way));
 }
 
-void leave(vec3 place, vec3 energy) {
+// m. Of a pane from before its own wall, which may reach as far in front of it.
+float endOfEmitted(Ray ray, Window window) {
+    if (kVisibility == 0u) {
+        return kFar;
+    }
+    Ray inFront = Ray(ray.origin + kPaneOnWall * outward(window), ray.direction);
+    return nearestTriangle(inFront, groundDepth(inFront)).depth;
+}
+
+// Rounded up as often as it is to the unit, so that weak windows beside strong ones are not lost.
+void leave(vec3 place, vec3 energy, inout RandomStream random) {
     float side;
     uint cell = cellAbout(place, side);
     if (cell == kNone || side >= cellSideOf(ordersField, ordersField.blurredScale)) {
         return;  // nodes that hold near parts too
     }
-    uvec3 units = uvec3(energy / ordersTable.energyUnit + 0.5);
+    uvec3 units = uvec3(energy / ordersTable.energyUnit + nextRandom(random));
     for (uint channel = 0u; channel < 3u; ++channel) {
         atomicAdd(UintArray(ordersTable.nearEnergy).at[3u * cell + channel], units[channel]);
     }
@@ -55,7 +62,7 @@ void main() {
     uint rays = push.sampleIndex;
     uint number = push.firstPixel * kGroupSize + gl_GlobalInvocationID.x;
     uint index = number / rays;
-    if (index >= ordersTable.windowCount || !isOn(index)) {
+    if (index >= ordersTable.windowCount || !isLit(index)) {
         return;
     }
     Window window = WindowArray(sceneTable.windows).at[index];
@@ -65,7 +72,7 @@ void main() {
     RandomStream random = RandomStream(pcg4d(uvec4(index, number % rays, 2u, 0u)), 0u);
     Ray ray = emitted(window, number % rays, rays, random);
     float radius = ordersField.nearRadius;
-    float end = min(endOf(ray).distance, radius + length(ray.origin - window.centre));
+    float end = min(endOfEmitted(ray, window), radius + length(ray.origin - window.centre));
     HazeWalk walk = hazeWalk(ray, end);
     float depth = 0.0;
     for (HazePart part = nextHaze(walk); part.medium != kNone; part = nextHaze(walk)) {
@@ -76,7 +83,8 @@ void main() {
             float at = part.entry + (float(i) + 0.5) * step;
             vec3 place = ray.origin + at * ray.direction;
             float y = squared(place - window.centre) / (radius * radius);
-            leave(place, nearShare(y) * exp(-depth - 0.5 * haze.extinction * step) * step * power);
+            float share = nearShare(y) * exp(-depth - 0.5 * haze.extinction * step);
+            leave(place, share * step * power, random);
             depth += haze.extinction * step;
         }
     }

@@ -13,7 +13,6 @@
 layout(constant_id = NIGHTCITY_CONSTANT_GATHER) const uint kGather = kGatherFirst;
 
 const float kDeepest = 16.0;  // optical depth beyond which no ray looks
-const float kGoldenRatio = 0.6180339887;
 
 // Of the fluence in a cell what was scattered or reflected before, W m^-2.
 vec3 scatteredAt(uint cell) {

@@ -7,6 +7,9 @@
 
 #include "transport/random.h"
 
+// Turns: points that go on by so much each, one after the other, lie evenly however many there are.
+const float kGoldenRatio = 0.6180339887;
+
 // Each in [0, 1).
 vec2 nextRandomPair(inout RandomStream random) {
     return randomPair(random.key, random.drawn++);

@@ -35,7 +35,6 @@ constexpr double kFirstOrderShare = 0.4;
 constexpr std::uint32_t kFirstCapacity = 512;  // entries a brick
 constexpr std::uint64_t kEntryBytes = 64u << 20;  // of a batch, most
 constexpr float kCellSpacings = 0.5f;  // of the smallest bricks, a cell of the map of heights
-constexpr float kLargestHalf = 65504;
 constexpr float kOrdersRoom = 4;  // of all orders to the first, at most, where it is brightest
 
 float skyHeight(const FlatScene& scene) {
@@ -315,7 +314,11 @@ void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::
     if (hasSums_) {
         passTimes_.clear();
     }
-    if (hasSums_ && emission == baked_) {
+    // Higher orders know windows one by one that are one light of the tree.
+    const bool isMultiple = settings_.scattering == Scattering::multiple;
+    const bool isSame =
+        emission == baked_ && (!isMultiple || std::ranges::equal(windowOn, bakedOn_));
+    if (hasSums_ && isSame) {
         return;
     }
     if (!hasSums_) {
@@ -336,13 +339,13 @@ void FarFieldGrid::syncWindowState(const FlatScene& scene, std::span<const std::
     }
     hasSums_ = false;  // until all bricks have the new state
     writeTables();
-    const bool isMultiple = settings_.scattering == Scattering::multiple;
     const double firstEnd = isMultiple ? kFirstOrderShare : 1;
     bakeFirstOrder(addresses.table, progress, firstEnd);
     if (isMultiple) {
         orders_.add({contents_.nearRadius, static_cast<std::uint32_t>(scene.windows.size()),
                      lights_.strongest, table_.address(), bakeTable_.address(), addresses},
                     progress, {firstEnd, 1}, passTimes_);
+        bakedOn_.assign(windowOn.begin(), windowOn.end());
     }
     baked_ = emission;
     hasSums_ = true;

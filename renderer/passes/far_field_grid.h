@@ -56,7 +56,8 @@ public:
         : device_(device), commands_(commands), orders_(device, commands) {}
 
     // Lays the field out; the next bake is a full one. `sceneTable` must hold windows, ground
-    // and occluders; with Scattering::multiple haze too, and with lit surfaces the light tree. Throws DeviceError where the nodes pass the memory that they may take.
+    // and occluders; with Scattering::multiple haze too, and with lit surfaces the light tree.
+    // Throws DeviceError where the nodes pass the memory that they may take.
     void syncGeometry(const FlatScene& scene, const FarFieldSettings& settings,
                       VkDeviceAddress sceneTable, const BakeProgress& progress);
     // Bakes the windows that are on, one byte a window; only those that changed where an earlier
@@ -109,6 +110,7 @@ private:
     FarLights lights_;
     FarOrders orders_;
     std::vector<vec3> baked_;  // emission that the sums hold, one a light
+    std::vector<std::uint8_t> bakedOn_;  // and the windows that were on; of Scattering::multiple
     bool hasSums_ = false;
     bool hasPipelines_ = false;
     std::vector<gpu::Buffer> arrays_;

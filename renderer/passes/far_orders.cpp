@@ -160,14 +160,13 @@ void FarOrders::add(const Bake& bake, const BakeProgress& progress, BakeShare sh
     Orders orders;
     orders.last = energyOf(first_);
     orders.all = orders.last;
-    for (push.round = 2; push.round <= kLastOrder && orders.last > 0; ++push.round) {
+    bool isLast = false;
+    for (push.round = 2; push.round <= kLastOrder && !isLast; ++push.round) {
         const bool isSecond = push.round == 2;
         run(isSecond ? "far gather" : "far gather on", isSecond ? gatherFirst_ : gatherNext_,
-            bricks_, kCellsEnd - (kCellsEnd - kSourceEnd) / (push.round - 1));
+            bricks_, kCellsEnd - (kCellsEnd - kSourceEnd) / push.round);
         orders.number = push.round;
-        if (endsWith(push.round, orders)) {
-            break;
-        }
+        isLast = endsWith(push.round, orders);
     }
     writeTable(bake, orders);
     run("far order places", lookOut_, bricks_, kCellsEnd);
@@ -176,15 +175,16 @@ void FarOrders::add(const Bake& bake, const BakeProgress& progress, BakeShare sh
     run("far higher", add_, bricks_, 1);
 }
 
-// Whether all orders that follow one are little. They count as a geometric series.
+// Whether all orders that follow one are little. They count as a geometric series. Haze that no
+// window lights has a second order nevertheless, where surfaces reflect into it.
 bool FarOrders::endsWith(std::uint32_t order, Orders& orders) {
     const gpu::ReadableBuffer& cells = orders_[order % 2];
     const double energy = energyOf(cells);
-    const double ratio = std::min(energy / orders.last, kLargestRatio);
+    const double ratio = orders.last > 0 ? std::min(energy / orders.last, kLargestRatio) : 0;
     orders.tail = ratio / (1 - ratio);
     orders.all += energy;
     orders.last = energy;
-    return order > 2 && energy * orders.tail <= kLargestTail * orders.all;
+    return !(energy > 0) || (order > 2 && energy * orders.tail <= kLargestTail * orders.all);
 }
 
 // Over all cells, W m: of the largest channel.
@@ -206,8 +206,7 @@ double FarOrders::energyOf(const gpu::ReadableBuffer& cells) {
 void FarOrders::writeTable(const Bake& bake, const Orders& orders) {
     contents_.field = addressWords(bake.field);
     contents_.bake = addressWords(bake.bake);
-    contents_.energyUnit =
-        std::max(bake.strongest * bake.nearRadius, 1e-30f) * kEnergyUnit;
+    contents_.energyUnit = std::max(bake.strongest * bake.nearRadius, 1e-30f) * kEnergyUnit;
     contents_.windowCount = bake.windows;
     contents_.lastOrder = orders.number;
     contents_.tail = float(orders.tail);

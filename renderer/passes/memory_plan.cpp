@@ -87,8 +87,9 @@ std::uint64_t fieldBytes(const FlatScene& scene, const FarFieldSettings& setting
         bytesOf(double(panes), sizeof(NearPane) + 4 + kNodesABox * sizeof(BoxNode));
     const std::uint64_t orders =
         settings.scattering == Scattering::multiple ? farOrderBytes(bricks, settings.surfaces) : 0;
-    return grid + orders + lights * (sizeof(FarLight) + 2 * sizeof(vec3) + 1) + farEntryBytes(windows) + near +
-           media.size() * 4 * sizeof(FarMedium) + (layout.hasLargeBricks() ? kHeightMapBytes : 0);
+    return grid + orders + lights * (sizeof(FarLight) + 2 * sizeof(vec3) + 1) +
+           farEntryBytes(windows) + near + media.size() * 4 * sizeof(FarMedium) +
+           (layout.hasLargeBricks() ? kHeightMapBytes : 0);
 }
 
 std::uint64_t frameBytes(const gpu::Device& device, const RenderProduct& product,

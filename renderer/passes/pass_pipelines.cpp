@@ -117,7 +117,8 @@ void PassPipelines::makeMarch(gpu::Device& device) {
 
 void PassPipelines::makeLit(gpu::Device& device) {
     if (choice.lightsSurfaces()) {
-        lit = makePipeline(device, "lit", kLitSpirv, {}, modelConstants(choice.model, choice.media));
+        lit = makePipeline(device, "lit", kLitSpirv, {},
+                           modelConstants(choice.model, choice.media));
     }
 }
 
@@ -135,7 +136,8 @@ void PassPipelines::makeGauss(gpu::Device& device) {
 }
 
 void PassPipelines::makePath(gpu::Device& device) {
-    path = makePipeline(device, "path", kPathSpirv, {kStructureBinding}, modelConstants(choice.model, choice.media));
+    path = makePipeline(device, "path", kPathSpirv, {kStructureBinding},
+                        modelConstants(choice.model, choice.media));
 }
 
 void PassPipelines::bind(const GpuScene& scene) {

@@ -17,6 +17,7 @@ NIGHTCITY_CONST uint kBrickSteps = 8u;   // from node to node along each side of
 NIGHTCITY_CONST uint kBrickNodes = (kBrickSteps + 1u) * (kBrickSteps + 1u) * (kBrickSteps + 1u);
 NIGHTCITY_CONST uint kBrickScales = 6u;  // a brick of scale s is 1 << s lattice cells a side
 NIGHTCITY_CONST uint kScaleShift = 28u;  // of the index: bricks are fewer than 1 << kScaleShift
+NIGHTCITY_CONST float kLargestHalf = 65504.0f;
 
 // Homogeneous haze in a box; equal neighbours are one where together they are a box.
 struct FarMedium {
