@@ -194,8 +194,8 @@ void addMethod(CLI::App& app, Options& options) {
               "march, quadrature to a tolerance, field or Monte Carlo paths on the device; or in double "
               "precision on the CPU the exact integral, with --subdivisions the same march. Default: "
               "gauss for --lights listed, --reach and tolerances below 0.01; of --scattering "
-              "multiple path for --lights listed and --reach, and with --samples, --orders, --g or "
-              "--aovs glowError; else field")
+              "multiple path for --lights listed, --reach and --surfaces lit, and with --samples, "
+              "--orders, --g or --aovs glowError; else field")
         ->default_str("by the model");
     addCount(app, "--subdivisions", settings.subdivisions, "steps of the march in each media box");
     app.add_option("--tolerance", settings.tolerance,

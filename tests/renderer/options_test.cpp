@@ -91,7 +91,8 @@ TEST(Options, TheModelChoosesTheMethod) {
     EXPECT_EQ(method({"--lights", "listed"}), Method::gauss);
     EXPECT_EQ(method({"--reach", "20"}), Method::gauss);
     EXPECT_EQ(method({"--tolerance", "0.001"}), Method::gauss);
-    EXPECT_EQ(method({"--model", "full"}), Method::field);
+    EXPECT_EQ(method({"--model", "full"}), Method::path);
+    EXPECT_EQ(method({"--scattering", "multiple"}), Method::field);
     EXPECT_EQ(method({"--scattering", "multiple", "--tolerance", "0.005"}), Method::field);
     EXPECT_EQ(method({"--scattering", "multiple", "--samples", "16"}), Method::path);
     EXPECT_EQ(method({"--scattering", "multiple", "--orders", "2-"}), Method::path);
