@@ -12,7 +12,7 @@
 layout(local_size_x = kGroupSize) in;
 
 // Share of higher orders that a node may be off by; as measured in the paper's city.
-const float kErrorOfOrders = 0.03;
+const float kErrorOfOrders = 0.06;
 
 // What a node counts whose share is 0: where it alone is in the air, it speaks for the others.
 const float kLeastShare = 1e-4;
