@@ -194,7 +194,7 @@ def test_town(nightcity: Command, tmp_path: Path) -> None:
         (("--size", "0x10"), 2, "size"),
         (("--subdivisions", "0"), 2, "subdivisions"),
         (("--method", "guess"), 2, "march"),
-        (("--model", "full", "--method", "field"), 2, "--method path"),
+        (("--model", "full", "--method", "gauss"), 2, "--method field and path"),
         (("--model", "best"), 2, "paper"),
         (("--tolerence", "0.1"), 2, "did you mean --tolerance?"),
     ],
