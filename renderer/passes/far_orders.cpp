@@ -22,6 +22,7 @@ static_assert(sizeof(FarOrdersTable) == 13 * 8 + 16);
 // Rays, about, of all places of cells for an order, and of all nodes.
 constexpr double kCellRays = 1.2e6, kNodeRays = 5e6;
 constexpr double kLeastRays = 16, kMostRays = 128;  // of one
+constexpr std::uint32_t kLitRays = 3;  // times as many of a node where each meets a random window too
 // Orders end where all that follow, if each brings the same share of the one before, bring less
 // than this of all; or at the last, in thick haze that loses nothing.
 constexpr double kLargestTail = 0.01;
@@ -170,7 +171,8 @@ void FarOrders::add(const Bake& bake, const BakeProgress& progress, BakeShare sh
     }
     writeTable(bake, orders);
     run("far order places", lookOut_, bricks_, kCellsEnd);
-    push.sampleIndex = raysOf(kNodeRays, double(bricks_) * kOrderNodes);
+    const std::uint32_t more = model_.surfaces == Surfaces::lit ? kLitRays : 1;
+    push.sampleIndex = more * raysOf(kNodeRays, double(bricks_) * kOrderNodes);
     run("far order nodes", gatherAll_, bricks_, kNodesEnd);
     run("far higher", add_, bricks_, 1);
 }

@@ -90,6 +90,50 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, FieldOrders, testing::Values(Surfaces::dim, S
                              return surfaces.param == Surfaces::lit ? "lit" : "dim";
                          });
 
+// Far away, the tree over the windows ends above single ones: of two states that differ only there,
+// what is baked of the first order is the same, and what lit surfaces reflect is not.
+TEST(FieldOrdersAlone, StatesThatDifferWithinOneLightOfTheTreeAreTwo) {
+    SceneBuilder city;
+    const uint wall = city.addMaterial(vec3(0.8f));
+    city.ground = GroundPlane{0, wall};
+    city.addBoxBuilding({-3, 3, 0}, {3, 6, 6}, wall);
+    for (uint i = 0; i < 1024; ++i) {
+        const vec3 centre(float(i % 32) * 0.2f, -150, 4 + float(i / 32) * 0.2f);
+        for (const float behind : {0.0f, 0.4f}) {
+            city.addWindow(centre - vec3(0, behind, 0), {-0.01f, 0, 0}, {0, 0, 0.01f}, 50, vec3(1),
+                           false);
+        }
+    }
+    city.addMediaBox({-3, -1, 0}, {3, 3, 4}, kThick, 0.9f);
+    city.addCamera("front", {0, -12, 3}, {0, 0, 2}, 40);
+    for (uint i = 0; i < city.windows.size(); ++i) {  // first those at even numbers, then the others
+        city.windows[i].flags = i % 2 == 0 ? city.windows[i].flags | kWindowOn
+                                           : city.windows[i].flags & ~kWindowOn;
+        city.windowEvents.push_back({2, i, i % 2});
+    }
+    const FlatScene scene = city.load();
+    RenderSettings settings = settingsOf(Method::field, Surfaces::lit);
+    RenderProduct product = productOf("front", 64, 48);
+    product.aovs = kAovGlow;
+    product.frame = 2;
+    const Frame fresh = renderOnDevice(scene, product, settings);
+    product.frame = 1;
+    const Frame before = renderOnDevice(scene, product, settings);
+    ASSERT_GT(sum(fresh), 0);
+    EXPECT_NE(before.glow, fresh.glow);
+    settings.model.scattering = Scattering::single;
+    const Frame single = renderOnDevice(scene, product, settings);
+    product.frame = 2;
+    EXPECT_EQ(single.glow, renderOnDevice(scene, product, settings).glow);
+    settings.model.scattering = Scattering::multiple;
+    product.frame = 1;
+    renderOnDevice(scene, product, settings);
+    product.frame = 2;
+    testDelegate().sync(scene, product.camera, product.frame, settings, {.geometry = false});
+    testDelegate().render(product, settings, {});
+    EXPECT_EQ(testDelegate().resolve().glow, fresh.glow);
+}
+
 // Nothing to look at: no windows, no haze, a white wall of haze.
 TEST(FieldOrdersAlone, AreBlackWithoutLightAndBoundedWithoutLoss) {
     SceneBuilder dark = paperCity(1, kThick);
